@@ -1,0 +1,76 @@
+"""Checks of what comes in through a public door: each returns the value in the form used inside."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dq_marine.errors import InvalidInputError
+
+
+def finite_array(name: str, value: ArrayLike, size: int) -> NDArray[np.float64]:
+    """Return `value` as a float64 array of shape (size,).
+
+    Raises:
+        InvalidInputError: it is not numeric, of another shape, or has a NaN or an infinity.
+    """
+    try:
+        array = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidInputError(
+            f"{name} = {value!r} is not numeric; give {size} numbers"
+        ) from error
+    if array.shape != (size,):
+        raise InvalidInputError(f"{name} has shape {array.shape}; give shape ({size},)")
+    if not np.isfinite(array).all():
+        raise InvalidInputError(f"{name} = {array.tolist()} is not finite; give finite numbers")
+    return array
+
+
+def unit_quaternion(name: str, value: ArrayLike) -> NDArray[np.float64]:
+    """Return `value` as a float64 quaternion of exactly unit length, shape (4,).
+
+    Raises:
+        InvalidInputError: as for `finite_array`, or its length is not 1 to 1e-6.
+    """
+    q = finite_array(name, value, 4)
+    length = float(np.linalg.norm(q))
+    if abs(length - 1.0) > 1e-6:
+        raise InvalidInputError(
+            f"{name} has length {length:.9g}; give a unit quaternion, scalar first (divide it by its length)"
+        )
+    return q / length
+
+
+def positive_integer(name: str, value: Any) -> int:
+    """Return `value` as a positive int.
+
+    Raises:
+        InvalidInputError: it is not an integer of at least 1.
+    """
+    try:
+        number = operator.index(value)
+    except TypeError as error:
+        raise InvalidInputError(f"{name} = {value!r} is not an integer; give 1 or more") from error
+    if number < 1:
+        raise InvalidInputError(f"{name} = {number} is below 1; give 1 or more")
+    return number
+
+
+def finite_number(name: str, value: Any, *, above: float | None = None) -> float:
+    """Return `value` as a finite float, strictly above a limit where one is given.
+
+    Raises:
+        InvalidInputError: it is not.
+    """
+    try:
+        number = float(value)
+    except (TypeError, ValueError) as error:
+        raise InvalidInputError(f"{name} = {value!r} is not a number") from error
+    if not np.isfinite(number) or (above is not None and number <= above):
+        limit = "finite" if above is None else f"finite and above {above:g}"
+        raise InvalidInputError(f"{name} = {number:g} is not {limit}; give one that is")
+    return number

@@ -1,0 +1,242 @@
+"""One body, stepped by a function compiled for its scene."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numba import types
+from numpy.typing import ArrayLike, NDArray
+
+from dq_marine.checks import finite_array, positive_integer, unit_quaternion
+from dq_marine.engines.compilation import compile_function
+from dq_marine.engines.packing import make_load, pack, store, structure_type, unpack
+from dq_marine.errors import InvalidInputError, StepNotSolvableError
+from dq_marine.kernel.body import BodyState, kinetic_energy, spatial_momentum
+from dq_marine.kernel.dual_quaternion import pose_from_parts, pose_position
+from dq_marine.kernel.inertia import momentum_from_twist, twist_from_momentum
+from dq_marine.kernel.spatial import Spatial, from_fossen, spatial_subtract, to_fossen
+from dq_marine.kernel.step import (
+    ACCEPTED,
+    NOT_CONVERGED,
+    NOT_FINITE,
+    WRONG_BRANCH,
+    Composition,
+    StepParameters,
+    make_advance,
+    make_motion,
+)
+
+REFUSALS = {
+    NOT_CONVERGED: "not_converged",
+    WRONG_BRANCH: "wrong_branch",
+    NOT_FINITE: "not_finite",
+}
+"""Why a step was refused, by status code."""
+
+AT_REST = BodyState(
+    pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+    Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+)
+"""At the world's origin, axes aligned, at rest in the water."""
+
+SMALLEST_FRACTION = 2.0**-20
+"""Of the scene's step: the smallest that is tried when an admissible one is sought."""
+
+
+class OneBody:
+    """A body in a scene: its state, and the compiled step.
+
+    Made by `Scene.stepper`. Time starts at 0; position is in NED, velocity over ground in the body frame and
+    in Fossen's order [u, v, w, p, q, r].
+    """
+
+    def __init__(
+        self,
+        composition: Composition,
+        parameters_at: Callable[[float], StepParameters],
+        step: float,
+    ) -> None:
+        self._composition = composition
+        self._parameters_at = parameters_at
+        self.parameters = parameters_at(step)
+        self._numbers = pack(self.parameters)
+        self._advance = compiled_advance(composition, structure_type(self.parameters))
+        self._motion = make_motion(composition)
+        self._state = pack(AT_REST)
+        self.step_size = step
+        self.time = 0.0
+
+    def __reduce__(self) -> Any:
+        """Refuse to be pickled: a scene makes a new stepper, and `get_state` carries the state over."""
+        raise TypeError("a stepper is not picklable; pickle the Scene and get_state() instead")
+
+    def reset(
+        self,
+        position_ned: ArrayLike = (0.0, 0.0, 0.0),
+        quaternion_body_to_ned: ArrayLike = (1.0, 0.0, 0.0, 0.0),
+        velocity_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    ) -> None:
+        """Place the body and set the time to 0.
+
+        Args:
+            position_ned: shape (3,) [m].
+            quaternion_body_to_ned: shape (4,), scalar first, of unit length to 1e-6; it is normalised.
+            velocity_body: over ground, shape (6,) [m/s, rad/s].
+
+        Raises:
+            InvalidInputError: a shape or value is wrong; nothing is changed.
+        """
+        position = finite_array("position_ned", position_ned, 3)
+        q = unit_quaternion("quaternion_body_to_ned", quaternion_body_to_ned)
+        velocity = finite_array("velocity_body", velocity_body, 6)
+        self._state = pack(place_body(self._composition, self.parameters, position, q, velocity))
+        self.time = 0.0
+
+    def step(self, wrench_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), steps: int = 1) -> None:
+        """Advance by `steps` steps under a constant wrench.
+
+        Between the steps of one call two half kicks are taken as one: the pose and velocity agree with
+        single-step calls to the scheme's order, and exactly where nothing is damped.
+
+        Args:
+            wrench_body: [X, Y, Z, K, M, N] in the body frame about its origin, shape (6,) [N, N m].
+            steps: how many, at least 1.
+
+        Raises:
+            InvalidInputError: a shape or value is wrong; nothing is changed.
+            StepNotSolvableError: the integrator refused; nothing is changed.
+        """
+        wrench = finite_array("wrench_body", wrench_body, 6)
+        count = positive_integer("steps", steps)
+        status, completed, _, residual_squared = self._advance(
+            self._numbers, self._state, wrench, count
+        )
+        if status != ACCEPTED:
+            raise self._refusal(status, completed, wrench, residual_squared)
+        self.time += count * self.step_size
+
+    def _refusal(
+        self, status: int, completed: int, wrench: NDArray[np.float64], residual_squared: float
+    ) -> StepNotSolvableError:
+        velocity = self.relative_velocity_body
+        return StepNotSolvableError(
+            REFUSALS[status],
+            residual=float(np.sqrt(residual_squared)),
+            step_times_spin=self.step_size * float(np.linalg.norm(velocity[3:])),
+            step_times_speed=self.step_size * float(np.linalg.norm(velocity[:3])),
+            admissible_step=self._admissible_step(wrench, completed + 1),
+        )
+
+    def _admissible_step(self, wrench: NDArray[np.float64], steps: int) -> float | None:
+        """Return the largest h/2^k that takes the body through the refused time, if any is found."""
+        advance = make_advance(self._composition)
+        force = from_fossen(tuple(wrench.tolist()))  # type: ignore[arg-type]
+        fraction = 0.5
+        while fraction >= SMALLEST_FRACTION:
+            parameters = self._parameters_at(self.step_size * fraction)
+            try:
+                outcome = advance(parameters, self.state, force, min(int(steps / fraction), 64))
+                if outcome.status == ACCEPTED:
+                    return self.step_size * fraction
+            except (OverflowError, ZeroDivisionError):
+                pass  # plain Python raises where compiled code goes on to a refused infinity
+            fraction *= 0.5
+        return None
+
+    @property
+    def state(self) -> BodyState:
+        """Pose and momentum as the kernel has them."""
+        return unpack(AT_REST, self._state)  # type: ignore[no-any-return]
+
+    @property
+    def pose_body_to_ned(self) -> NDArray[np.float64]:
+        """The pose as a unit dual quaternion q + eps (1/2) l q, real part first, shape (8,)."""
+        return self._state[:8].copy()
+
+    @property
+    def quaternion_body_to_ned(self) -> NDArray[np.float64]:
+        """The attitude, scalar first, shape (4,)."""
+        return self._state[:4].copy()
+
+    @property
+    def position_ned(self) -> NDArray[np.float64]:
+        """Position of the body origin [m], shape (3,)."""
+        return np.array(pose_position(self.state.pose))
+
+    @property
+    def relative_velocity_body(self) -> NDArray[np.float64]:
+        """Velocity through the water nu_r, Fossen's order [m/s, rad/s], shape (6,)."""
+        return np.array(
+            to_fossen(twist_from_momentum(self.parameters.inertia, self.state.momentum))
+        )
+
+    @property
+    def velocity_body(self) -> NDArray[np.float64]:
+        """Velocity over ground nu, Fossen's order [m/s, rad/s], shape (6,)."""
+        return np.array(to_fossen(self._motion(self.parameters, self.state).velocity))
+
+    @property
+    def kinetic_energy(self) -> float:
+        """(1/2) nu_r . M nu_r [J], of body and water, relative to the undisturbed water."""
+        return kinetic_energy(self.parameters.inertia, self.state.momentum)
+
+    @property
+    def spatial_momentum(self) -> NDArray[np.float64]:
+        """Momentum [linear, angular] in NED about the world origin, relative to the water, shape (6,)."""
+        return np.array(to_fossen(spatial_momentum(self.state)))
+
+    def get_state(self) -> NDArray[np.float64]:
+        """Return time, pose and momentum, shape (15,); `set_state` restores them bit for bit."""
+        return np.concatenate([[self.time], self._state])
+
+    def set_state(self, state: ArrayLike) -> None:
+        """Restore what `get_state` returned.
+
+        Raises:
+            InvalidInputError: shape or value is wrong; nothing is changed.
+        """
+        numbers = finite_array("state", state, 15)
+        if abs(float(numbers[1:5] @ numbers[1:5]) - 1.0) > 1e-6:
+            raise InvalidInputError(
+                f"state[1:5] = {numbers[1:5]} is not a unit quaternion; pass what get_state() returned"
+            )
+        self.time = float(numbers[0])
+        self._state = numbers[1:].copy()
+
+
+def place_body(
+    composition: Composition,
+    parameters: StepParameters,
+    position_ned: NDArray[np.float64],
+    quaternion_body_to_ned: NDArray[np.float64],
+    velocity_body: NDArray[np.float64],
+) -> BodyState:
+    """Return the state of a body with the given position, attitude and velocity over ground."""
+    pose = pose_from_parts(tuple(quaternion_body_to_ned.tolist()), tuple(position_ned.tolist()))
+    water = composition.water.twist(parameters.water, pose)
+    relative = spatial_subtract(from_fossen(tuple(velocity_body.tolist())), water)
+    return BodyState(pose, momentum_from_twist(parameters.inertia, relative))
+
+
+@functools.cache
+def compiled_advance(composition: Composition, layout: types.Type) -> Callable[..., Any]:
+    """Compile (parameters, state, wrench, steps) -> (status, completed, iterations, residual_squared).
+
+    All arrays float64: `parameters` packed from the `StepParameters` of `layout`, `state` (14,) changed in
+    place and only if the status is ACCEPTED, `wrench` (6,) in Fossen's order.
+    """
+    advance = make_advance(composition)
+    load_parameters = make_load(layout)
+    load_state = make_load(structure_type(AT_REST))
+
+    def advance_arrays(parameters: Any, state: Any, wrench: Any, steps: int) -> Any:
+        force = from_fossen((wrench[0], wrench[1], wrench[2], wrench[3], wrench[4], wrench[5]))
+        outcome = advance(load_parameters(parameters), load_state(state), force, steps)
+        if outcome.status == ACCEPTED:
+            store(state, outcome.state)
+        return outcome.status, outcome.completed, outcome.iterations, outcome.residual_squared
+
+    return compile_function(advance_arrays, str(layout))

@@ -1,0 +1,104 @@
+"""Nested tuples of numbers in flat arrays, and back, at no cost in compiled code.
+
+A compiled function takes its parameters as one array: passing a hundred numbers in nested tuples would cost
+more than the step. `flatten` lays the tuples out; `make_load` and `store` are the compiled ways back and
+forth, resolved while compiling into plain loads and stores.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
+from numpy.typing import NDArray
+
+
+def flatten(structure: Any) -> Iterator[float]:
+    """Yield the numbers of nested tuples, depth first."""
+    if isinstance(structure, tuple):
+        for part in structure:
+            yield from flatten(part)
+    else:
+        yield float(structure)
+
+
+def pack(structure: Any) -> NDArray[np.float64]:
+    """Return the numbers of nested tuples as a float64 array."""
+    return np.fromiter(flatten(structure), dtype=np.float64)
+
+
+def unpack(like: Any, numbers: NDArray[np.floating[Any]]) -> Any:
+    """Return nested tuples shaped as `like`, with `numbers` as their components: the inverse of `pack`."""
+
+    def build(part: Any, source: Iterator[float]) -> Any:
+        if not isinstance(part, tuple):
+            return next(source)
+        values = [build(inner, source) for inner in part]
+        return type(part)(*values) if hasattr(part, "_fields") else tuple(values)
+
+    return build(like, iter(numbers.tolist()))
+
+
+def structure_type(structure: Any) -> types.Type:
+    """Return the Numba type of nested tuples whose leaves are taken as float64."""
+    if not isinstance(structure, tuple):
+        return types.float64
+    named = type(structure) if hasattr(structure, "_fields") else None
+    return types.BaseTuple.from_types(tuple(structure_type(part) for part in structure), named)
+
+
+def make_load(result: types.Type) -> Callable[[Any], Any]:
+    """Return a function for compiled code that reads an array into nested tuples of the given type."""
+
+    @intrinsic
+    def load(typing_context: Any, array: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            array_type = signature.args[0]
+            data = context.make_array(array_type)(context, builder, arguments[0]).data
+            position = iter(range(_leaf_count(result)))
+
+            def build(part: types.Type) -> Any:
+                if not isinstance(part, types.BaseTuple):
+                    pointer = cgutils.gep_inbounds(builder, data, next(position))
+                    value = builder.load(pointer)
+                    return context.cast(builder, value, array_type.dtype, part)
+                return context.make_tuple(builder, part, [build(inner) for inner in part.types])
+
+            return build(result)
+
+        return result(array), generate
+
+    return load
+
+
+@intrinsic
+def store(typing_context: Any, array: Any, structure: Any) -> Any:
+    """Write the numbers of nested tuples into an array, cast to its type; for compiled code only."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        array_type, root = signature.args
+        data = context.make_array(array_type)(context, builder, arguments[0]).data
+        position = iter(range(_leaf_count(root)))
+
+        def write(part: types.Type, value: Any) -> None:
+            if isinstance(part, types.BaseTuple):
+                for index, inner in enumerate(part.types):
+                    write(inner, builder.extract_value(value, index))
+                return
+            number = context.cast(builder, value, part, array_type.dtype)
+            builder.store(number, cgutils.gep_inbounds(builder, data, next(position)))
+
+        write(root, arguments[1])
+        return context.get_dummy_value()
+
+    return types.none(array, structure), generate
+
+
+def _leaf_count(part: types.Type) -> int:
+    if not isinstance(part, types.BaseTuple):
+        return 1
+    return sum(_leaf_count(inner) for inner in part.types)

@@ -1,0 +1,62 @@
+"""The exceptions that dq_marine raises, all at its public doors.
+
+Each names the offending value, the limit it broke and the remedy, and leaves what it refused unchanged.
+"""
+
+from __future__ import annotations
+
+
+class DQMarineError(Exception):
+    """Base class of every exception that dq_marine raises on purpose."""
+
+
+class InvalidInputError(DQMarineError, ValueError):
+    """A value handed to a public function is outside what that function accepts."""
+
+
+class VehicleFileError(InvalidInputError):
+    """A vehicle file is refused.
+
+    The message names the file, the field, the value and the remedy, one line per mistake.
+    """
+
+
+class MissingDependencyError(DQMarineError, ImportError):
+    """An optional package or program is needed for what was asked and is not installed."""
+
+
+class StepNotSolvableError(DQMarineError, ArithmeticError):
+    """The integrator refused a step; the state is the one before the call.
+
+    Attributes:
+        reason: one word from `dq_marine.engines.one_body.REFUSALS`.
+        residual: relative residual of the discrete equation where the solver stopped.
+        step_times_spin: h |omega|, dimensionless [rad].
+        step_times_speed: h |v| [m].
+        admissible_step: a step size [s] that was tried and takes this state through; None if none does.
+    """
+
+    def __init__(
+        self,
+        reason: str,
+        *,
+        residual: float,
+        step_times_spin: float,
+        step_times_speed: float,
+        admissible_step: float | None,
+    ) -> None:
+        self.reason = reason
+        self.residual = residual
+        self.step_times_spin = step_times_spin
+        self.step_times_speed = step_times_speed
+        self.admissible_step = admissible_step
+        remedy = (
+            "no smaller step was found that takes it through; reduce the wrench or the speed"
+            if admissible_step is None
+            else f"a step of {admissible_step:.3g} s takes it through"
+        )
+        super().__init__(
+            f"the step was refused ({reason}): residual {residual:.3g}, "
+            f"h|omega| = {step_times_spin:.3g} rad, h|v| = {step_times_speed:.3g} m; "
+            f"{remedy}"
+        )

@@ -1,0 +1,87 @@
+"""Damping matrices D(chi) = linear + diag(quadratic |chi|), diagonal or full, and what a kick does with them.
+
+A diagonal D is held as the spatial vector of its diagonal and a full one as a 6x6 matrix. Each kind offers
+the same four operations under `DampingAlgebra`, so that one kick serves both and the diagonal one never
+multiplies by zeros.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from dq_marine.kernel.spatial import (
+    Matrix6,
+    Spatial,
+    matrix6_add_diagonal,
+    matrix6_add_scaled,
+    matrix6_multiply,
+    matrix6_transform,
+    spatial_absolute,
+    spatial_add,
+    spatial_multiply_elementwise,
+    spatial_scale,
+    spatial_scale_rows_and_columns,
+)
+
+
+class DiagonalDamping(NamedTuple):
+    """D = diag(linear + quadratic |chi|), per unit of twist [N m s, N s/m; quadratic: per unit of twist^2]."""
+
+    linear: Spatial
+    quadratic: Spatial
+
+
+class FullDamping(NamedTuple):
+    """D = linear + diag(quadratic |chi|) with any dissipative 6x6 `linear`."""
+
+    linear: Matrix6
+    quadratic: Spatial
+
+
+class DampingAlgebra(NamedTuple):
+    """The operations on one kind of damping matrix.
+
+    at(damping, twist) is D(chi); apply(D, chi) is D chi; add_scaled(m, s, D) is m + s D for a 6x6 m;
+    sandwich(D, m) is D m D.
+    """
+
+    at: Callable[..., Any]
+    apply: Callable[..., Any]
+    add_scaled: Callable[..., Any]
+    sandwich: Callable[..., Any]
+
+
+def diagonal_at(damping: DiagonalDamping, twist: Spatial) -> Spatial:
+    """Return the diagonal of D(chi)."""
+    return spatial_add(
+        damping.linear, spatial_multiply_elementwise(damping.quadratic, spatial_absolute(twist))
+    )
+
+
+def diagonal_add_scaled(m: Matrix6, s: float, d: Spatial) -> Matrix6:
+    """Return m + s diag(d)."""
+    return matrix6_add_diagonal(m, spatial_scale(s, d))
+
+
+def diagonal_sandwich(d: Spatial, m: Matrix6) -> Matrix6:
+    """Return diag(d) m diag(d)."""
+    return spatial_scale_rows_and_columns(d, m, d)
+
+
+def full_at(damping: FullDamping, twist: Spatial) -> Matrix6:
+    """Return D(chi)."""
+    return matrix6_add_diagonal(
+        damping.linear, spatial_multiply_elementwise(damping.quadratic, spatial_absolute(twist))
+    )
+
+
+def full_sandwich(d: Matrix6, m: Matrix6) -> Matrix6:
+    """Return d m d."""
+    return matrix6_multiply(d, matrix6_multiply(m, d))
+
+
+DIAGONAL = DampingAlgebra(
+    diagonal_at, spatial_multiply_elementwise, diagonal_add_scaled, diagonal_sandwich
+)
+FULL = DampingAlgebra(full_at, matrix6_transform, matrix6_add_scaled, full_sandwich)

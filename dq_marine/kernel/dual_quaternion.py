@@ -1,0 +1,72 @@
+"""Dual quaternions p = real + eps dual, eps^2 = 0; a pose is a unit one.
+
+Pose of a body at position l (world) with attitude q: p = q + eps (1/2) l q  (Xu & Halse, eq. 24).
+Unit means real . real = 1 and real . dual = 0.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from dq_marine.kernel.quaternion import (
+    Quaternion,
+    quaternion_add,
+    quaternion_conjugate,
+    quaternion_dot,
+    quaternion_from_vector,
+    quaternion_multiply,
+    quaternion_scale,
+)
+from dq_marine.kernel.vector3 import Vector3, scale
+
+
+class DualQuaternion(NamedTuple):
+    """A dual quaternion; both parts scalar first."""
+
+    real: Quaternion
+    dual: Quaternion
+
+
+def dual_multiply(a: DualQuaternion, b: DualQuaternion) -> DualQuaternion:
+    """Return the product a b."""
+    return DualQuaternion(
+        quaternion_multiply(a.real, b.real),
+        quaternion_add(quaternion_multiply(a.real, b.dual), quaternion_multiply(a.dual, b.real)),
+    )
+
+
+def dual_conjugate(a: DualQuaternion) -> DualQuaternion:
+    """Return the quaternion conjugate of both parts, the inverse of a unit dual quaternion."""
+    return DualQuaternion(quaternion_conjugate(a.real), quaternion_conjugate(a.dual))
+
+
+def pose_from_parts(q: Quaternion, position: Vector3) -> DualQuaternion:
+    """Return the pose of a body at `position` (world) with unit attitude q (body to world)."""
+    return DualQuaternion(
+        q, quaternion_scale(0.5, quaternion_multiply(quaternion_from_vector(position), q))
+    )
+
+
+def pose_position(pose: DualQuaternion) -> Vector3:
+    """Return the position (world) of a unit dual quaternion: the vector part of 2 dual real*."""
+    product = quaternion_multiply(pose.dual, quaternion_conjugate(pose.real))
+    return scale(2.0, (product[1], product[2], product[3]))
+
+
+def pose_translate(pose: DualQuaternion, displacement: Vector3) -> DualQuaternion:
+    """Return the pose displaced by `displacement` in the world frame."""
+    shift = quaternion_multiply(quaternion_from_vector(displacement), pose.real)
+    return DualQuaternion(pose.real, quaternion_add(pose.dual, quaternion_scale(0.5, shift)))
+
+
+def pose_renormalise(pose: DualQuaternion) -> DualQuaternion:
+    """Return the pose with the round-off of one step removed from both unit constraints.
+
+    One Newton step of 1/sqrt towards |real| = 1 (quadratic, so exact for an error of 1e-8), then the part of
+    `dual` along `real` is dropped. Neither moves the position, 2 dual real*.
+    """
+    s = 0.5 * (3.0 - quaternion_dot(pose.real, pose.real))
+    real = quaternion_scale(s, pose.real)
+    dual = quaternion_scale(s, pose.dual)
+    along = quaternion_dot(real, dual)
+    return DualQuaternion(real, quaternion_add(dual, quaternion_scale(-along, real)))

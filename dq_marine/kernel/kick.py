@@ -1,0 +1,105 @@
+"""The change of momentum at frozen pose: all forces act together, damping implicitly.
+
+With the wrench F of everything but damping held over the kick's duration h, and the damping matrix D frozen
+at a predicted mid velocity chi_m,
+
+    (M + (h/2) D(chi)) chi_m = mu + (h/2) F                                                          (K1)
+    r = F - D chi                                                                                    (K2)
+    (M + h D + (h^2/2) D M^-1 D) dchi = h r + (h^2/2) D M^-1 r,   D = D(chi_m)                       (K3)
+
+which is the Pade (0,2) approximation of the exponential: second order, L-stable, and with the exact terminal
+velocity F = D(chi) chi as its fixed point. Where D is constant, (K2)-(K3) collapse to mu' = P mu + Q F with
+P and Q prepared once; where there is none, to mu' = mu + h F.
+
+Every kick has the signature (kick, inertia, momentum, wrench) -> momentum.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+from dq_marine.kernel.damping import DIAGONAL, FULL, DampingAlgebra, DiagonalDamping, FullDamping
+from dq_marine.kernel.inertia import Inertia, momentum_from_twist, twist_from_momentum
+from dq_marine.kernel.spatial import (
+    Matrix6,
+    Spatial,
+    matrix6_add_scaled,
+    matrix6_solve,
+    matrix6_transform,
+    spatial_add,
+    spatial_add_scaled,
+    spatial_scale,
+    spatial_subtract,
+)
+
+Kick: TypeAlias = Callable[[Any, Inertia, Spatial, Spatial], Spatial]
+
+
+class UndampedKick(NamedTuple):
+    """A kick without damping, of `duration` [s]."""
+
+    duration: float
+
+
+class LinearKick(NamedTuple):
+    """A kick with a constant damping matrix, prepared for one duration: mu' = P mu + Q F."""
+
+    propagator: Matrix6
+    forcing: Matrix6
+
+
+class QuadraticKick(NamedTuple):
+    """A kick of `duration` [s] with damping that grows with the velocity."""
+
+    duration: float
+    damping: DiagonalDamping | FullDamping
+
+
+def undamped_kick(
+    kick: UndampedKick, inertia: Inertia, momentum: Spatial, wrench: Spatial
+) -> Spatial:
+    """Return mu + h F."""
+    return spatial_add_scaled(momentum, kick.duration, wrench)
+
+
+def linear_kick(kick: LinearKick, inertia: Inertia, momentum: Spatial, wrench: Spatial) -> Spatial:
+    """Return P mu + Q F: (K2)-(K3) with a constant D."""
+    return spatial_add(
+        matrix6_transform(kick.propagator, momentum), matrix6_transform(kick.forcing, wrench)
+    )
+
+
+def make_quadratic_kick(algebra: DampingAlgebra) -> Kick:
+    """Return the kick (K1)-(K3) for one kind of damping matrix."""
+    damping_at, damping_apply, damping_add_scaled, damping_sandwich = algebra
+
+    def quadratic_kick(
+        kick: QuadraticKick, inertia: Inertia, momentum: Spatial, wrench: Spatial
+    ) -> Spatial:
+        h = kick.duration
+        twist = twist_from_momentum(inertia, momentum)
+        middle = matrix6_solve(  # (K1)
+            damping_add_scaled(inertia.matrix, 0.5 * h, damping_at(kick.damping, twist)),
+            spatial_add_scaled(momentum, 0.5 * h, wrench),
+        )
+        d = damping_at(kick.damping, middle)
+        excess = spatial_subtract(wrench, damping_apply(d, twist))  # (K2)
+        slowed = damping_apply(d, twist_from_momentum(inertia, excess))
+        change = matrix6_solve(  # (K3)
+            damping_add_scaled(
+                matrix6_add_scaled(
+                    inertia.matrix, 0.5 * h * h, damping_sandwich(d, inertia.inverse)
+                ),
+                h,
+                d,
+            ),
+            spatial_scale(h, spatial_add_scaled(excess, 0.5 * h, slowed)),
+        )
+        return momentum_from_twist(inertia, spatial_add(twist, change))
+
+    return quadratic_kick
+
+
+diagonal_quadratic_kick = make_quadratic_kick(DIAGONAL)
+full_quadratic_kick = make_quadratic_kick(FULL)

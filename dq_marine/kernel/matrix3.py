@@ -1,0 +1,122 @@
+"""3x3 matrices, as tuples of nine components in row-major order."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from dq_marine.kernel.vector3 import Vector3
+
+Matrix3: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
+
+
+def transform(m: Matrix3, a: Vector3) -> Vector3:
+    """Return m a."""
+    return (
+        m[0] * a[0] + m[1] * a[1] + m[2] * a[2],
+        m[3] * a[0] + m[4] * a[1] + m[5] * a[2],
+        m[6] * a[0] + m[7] * a[1] + m[8] * a[2],
+    )
+
+
+def matrix_add(a: Matrix3, b: Matrix3) -> Matrix3:
+    """Return a + b."""
+    return (
+        a[0] + b[0],
+        a[1] + b[1],
+        a[2] + b[2],
+        a[3] + b[3],
+        a[4] + b[4],
+        a[5] + b[5],
+        a[6] + b[6],
+        a[7] + b[7],
+        a[8] + b[8],
+    )
+
+
+def matrix_scale(s: float, a: Matrix3) -> Matrix3:
+    """Return s a."""
+    return (
+        s * a[0],
+        s * a[1],
+        s * a[2],
+        s * a[3],
+        s * a[4],
+        s * a[5],
+        s * a[6],
+        s * a[7],
+        s * a[8],
+    )
+
+
+def matrix_subtract(a: Matrix3, b: Matrix3) -> Matrix3:
+    """Return a - b."""
+    return matrix_add(a, matrix_scale(-1.0, b))
+
+
+def add_diagonal(a: Matrix3, d: Vector3) -> Matrix3:
+    """Return a + diag(d)."""
+    return (a[0] + d[0], a[1], a[2], a[3], a[4] + d[1], a[5], a[6], a[7], a[8] + d[2])
+
+
+def scale_rows_and_columns(rows: Vector3, a: Matrix3, columns: Vector3) -> Matrix3:
+    """Return diag(rows) a diag(columns)."""
+    return (
+        rows[0] * a[0] * columns[0],
+        rows[0] * a[1] * columns[1],
+        rows[0] * a[2] * columns[2],
+        rows[1] * a[3] * columns[0],
+        rows[1] * a[4] * columns[1],
+        rows[1] * a[5] * columns[2],
+        rows[2] * a[6] * columns[0],
+        rows[2] * a[7] * columns[1],
+        rows[2] * a[8] * columns[2],
+    )
+
+
+def matrix_multiply(a: Matrix3, b: Matrix3) -> Matrix3:
+    """Return a b."""
+    return (
+        a[0] * b[0] + a[1] * b[3] + a[2] * b[6],
+        a[0] * b[1] + a[1] * b[4] + a[2] * b[7],
+        a[0] * b[2] + a[1] * b[5] + a[2] * b[8],
+        a[3] * b[0] + a[4] * b[3] + a[5] * b[6],
+        a[3] * b[1] + a[4] * b[4] + a[5] * b[7],
+        a[3] * b[2] + a[4] * b[5] + a[5] * b[8],
+        a[6] * b[0] + a[7] * b[3] + a[8] * b[6],
+        a[6] * b[1] + a[7] * b[4] + a[8] * b[7],
+        a[6] * b[2] + a[7] * b[5] + a[8] * b[8],
+    )
+
+
+def matrix_from_columns(a: Vector3, b: Vector3, c: Vector3) -> Matrix3:
+    """Return the matrix whose columns are a, b and c."""
+    return (a[0], b[0], c[0], a[1], b[1], c[1], a[2], b[2], c[2])
+
+
+def adjugate(a: Matrix3) -> Matrix3:
+    """Return the adjugate of a: adj(a) a = det(a) 1."""
+    return (
+        a[4] * a[8] - a[5] * a[7],
+        a[2] * a[7] - a[1] * a[8],
+        a[1] * a[5] - a[2] * a[4],
+        a[5] * a[6] - a[3] * a[8],
+        a[0] * a[8] - a[2] * a[6],
+        a[2] * a[3] - a[0] * a[5],
+        a[3] * a[7] - a[4] * a[6],
+        a[1] * a[6] - a[0] * a[7],
+        a[0] * a[4] - a[1] * a[3],
+    )
+
+
+def determinant(a: Matrix3) -> float:
+    """Return det(a)."""
+    return (
+        a[0] * (a[4] * a[8] - a[5] * a[7])
+        + a[1] * (a[5] * a[6] - a[3] * a[8])
+        + a[2] * (a[3] * a[7] - a[4] * a[6])
+    )
+
+
+def invert(a: Matrix3) -> Matrix3:
+    """Return the inverse of a; infinite or NaN components where a is singular."""
+    return matrix_scale(1.0 / determinant(a), adjugate(a))

@@ -1,0 +1,92 @@
+"""Finding vehicles by name and reading vehicle files."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from dq_marine.errors import InvalidInputError, VehicleFileError
+from dq_marine.vehicles.model import Vehicle
+from dq_marine.vehicles.plausibility import Implausible
+
+_FOLDER = Path(__file__).parent
+
+
+def vehicle_names() -> list[str]:
+    """Return the names of the catalogue's vehicles, sorted."""
+    return sorted(path.stem for path in _FOLDER.glob("*.toml"))
+
+
+def load_vehicle(vehicle: Vehicle | str | os.PathLike[str]) -> Vehicle:
+    """Return a vehicle: one of the catalogue by name, one from a TOML file, or the one given.
+
+    Args:
+        vehicle: a catalogue name such as "bluerov2_heavy", the path of a file ending in `.toml`, or a
+            `Vehicle`.
+
+    Raises:
+        InvalidInputError: no such name or file.
+        VehicleFileError: the file is wrong; the message lists field, value and remedy.
+    """
+    if isinstance(vehicle, Vehicle):
+        return vehicle
+    if not isinstance(vehicle, str | os.PathLike):
+        raise InvalidInputError(
+            f"vehicle is a {type(vehicle).__name__}; give a catalogue name "
+            f"({', '.join(vehicle_names())}), the path of a .toml file, or a Vehicle"
+        )
+    text = os.fspath(vehicle)
+    if text in vehicle_names():
+        return _read(_FOLDER / f"{text}.toml")
+    path = Path(text).expanduser()
+    if path.is_file():
+        return _read(path)
+    kind = "file" if path.suffix == ".toml" or os.sep in text else "vehicle"
+    raise InvalidInputError(
+        f"there is no {kind} {text!r}; the catalogue holds {', '.join(vehicle_names())}, and the path of an "
+        "existing .toml file is taken too"
+    )
+
+
+def _read(path: Path) -> Vehicle:
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise VehicleFileError(f"{path}: not a TOML file: {error}") from error
+    except OSError as error:
+        raise VehicleFileError(f"{path}: cannot be read: {error.strerror}") from error
+    try:
+        return Vehicle.model_validate(content)
+    except ValidationError as error:
+        lines = [_line(detail) for detail in error.errors(include_url=False)]
+        raise VehicleFileError(f"{path} is refused:\n  " + "\n  ".join(lines)) from error
+
+
+def _line(detail: ErrorDetails) -> str:
+    """Say one mistake: field = value: problem; remedy."""
+    cause: Any = detail.get("ctx", {}).get("error")
+    if isinstance(cause, Implausible):
+        return f"{cause.field} = {cause.value}: {cause.problem}; {cause.remedy}"
+    field = ".".join(str(part) for part in detail["loc"])
+    if detail["type"] == "extra_forbidden":
+        return f"{field} = {detail['input']!r}: unknown key; remove it or correct its spelling"
+    if detail["type"] == "missing":
+        return f"{field}: missing; add it"
+    problem = _PROBLEMS.get(detail["type"], detail["msg"].removeprefix("Value error, "))
+    return f"{field} = {detail['input']!r}: {problem}"
+
+
+_PROBLEMS = {
+    "finite_number": "not a finite number; give a measured or estimated value",
+    "greater_than": "must be greater than 0; check sign and unit",
+    "greater_than_equal": "must not be negative; check the sign",
+    "float_type": "not a number; write it without quotes",
+    "float_parsing": "not a number; write it without quotes",
+    "too_short": "too few numbers; check the length",
+    "too_long": "too many numbers; check the length",
+}

@@ -1,0 +1,208 @@
+"""The vehicle model: what a vehicle file says, checked, with the matrices that follow from it.
+
+Body frame forward-starboard-down, everything about the body origin (CO), SI units. 6-vectors and 6x6 matrices
+in Fossen's order (surge, sway, heave, roll, pitch, yaw). Notation after Fossen (2021), Handbook of Marine
+Craft Hydrodynamics and Motion Control.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, model_validator
+
+from dq_marine.vehicles.fields import (
+    Matrix3,
+    Matrix6,
+    NonNegative6,
+    Positive,
+    Table,
+    Vector3,
+    Vector6,
+)
+from dq_marine.vehicles.plausibility import check_vehicle
+
+STANDARD_GRAVITY = 9.81
+"""Acceleration of gravity [m/s^2]."""
+
+
+class RigidBody(Table):
+    """The dry body.
+
+    Attributes:
+        mass: m [kg].
+        center_of_mass: r_G [m].
+        inertia: moments and products of inertia [kg m^2]: three numbers or a 3x3 matrix.
+        inertia_about: the point that `inertia` refers to.
+    """
+
+    mass: Positive
+    center_of_mass: Vector3 = (0.0, 0.0, 0.0)
+    inertia: Matrix3
+    inertia_about: Literal["body_origin", "center_of_mass"]
+
+
+class Buoyancy(Table):
+    """The displaced water.
+
+    Attributes:
+        volume: displaced volume [m^3].
+        center: centre of buoyancy r_B [m].
+        water_density: density of the water that all coefficients hold for [kg/m^3].
+    """
+
+    volume: Positive
+    center: Vector3
+    water_density: Positive = 1000.0
+
+
+class Damping(Table):
+    """Hydrodynamic damping, positive where it takes energy.
+
+    Attributes:
+        linear: six numbers or a 6x6 matrix [N s/m, N s, N m s].
+        quadratic: coefficients of |nu_i| nu_i [N s^2/m^2, N m s^2].
+    """
+
+    linear: Matrix6
+    quadratic: NonNegative6 = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class Limits(Table):
+    """What the actuators reach.
+
+    Attributes:
+        wrench: largest force and moment of each axis [N, N m]; 0 where the vehicle is not actuated.
+    """
+
+    wrench: NonNegative6
+
+
+class Dimensions(Table):
+    """Overall size and kind of hull, for drawing and for plausibility checks.
+
+    Attributes:
+        length: along x [m].
+        width: along y [m].
+        height: along z [m].
+        shape: the kind of hull to draw.
+    """
+
+    length: Positive
+    width: Positive
+    height: Positive
+    shape: Literal["open_frame", "torpedo"]
+
+
+class Thruster(Table):
+    """Place and direction of one thruster.
+
+    Attributes:
+        position: [m].
+        direction: of the force on the body at positive thrust; need not be of unit length.
+    """
+
+    position: Vector3
+    direction: Vector3
+
+
+class Vehicle(Table):
+    """A marine vehicle, as its file describes it.
+
+    Attributes:
+        name: as people call it.
+        description: one sentence.
+        sources: where the numbers come from, most important first.
+        rigid_body: mass and its distribution.
+        buoyancy: displaced water.
+        added_mass: M_A, six numbers or a 6x6 matrix [kg, kg m, kg m^2]; minus the hydrodynamic derivatives.
+        damping: linear and quadratic.
+        limits: of the actuators.
+        dimensions: overall size.
+        thrusters: for drawing.
+    """
+
+    name: str = Field(min_length=1)
+    description: str
+    sources: tuple[str, ...] = Field(min_length=1)
+    rigid_body: RigidBody
+    buoyancy: Buoyancy
+    added_mass: Matrix6
+    damping: Damping
+    limits: Limits
+    dimensions: Dimensions
+    thrusters: tuple[Thruster, ...] = ()
+
+    @model_validator(mode="after")
+    def _plausible(self) -> Self:
+        check_vehicle(self)
+        return self
+
+    @property
+    def weight(self) -> float:
+        """W = m g [N]."""
+        return self.rigid_body.mass * STANDARD_GRAVITY
+
+    @property
+    def buoyant_force(self) -> float:
+        """B = rho g V [N]."""
+        return self.buoyancy.water_density * STANDARD_GRAVITY * self.buoyancy.volume
+
+    @property
+    def rigid_body_matrix(self) -> NDArray[np.float64]:
+        """M_RB about the body origin, shape (6, 6) (Fossen 2021, eq. 3.50)."""
+        mass = self.rigid_body.mass
+        s = skew(np.array(self.rigid_body.center_of_mass))
+        inertia = np.array(self.rigid_body.inertia)
+        if self.rigid_body.inertia_about == "center_of_mass":
+            inertia = inertia - mass * s @ s
+        return np.block([[mass * np.eye(3), -mass * s], [mass * s, inertia]])
+
+    @property
+    def mass_matrix(self) -> NDArray[np.float64]:
+        """M = M_RB + M_A, shape (6, 6)."""
+        added = np.array(self.added_mass)
+        return self.rigid_body_matrix + 0.5 * (added + added.T)
+
+    @property
+    def linear_damping(self) -> NDArray[np.float64]:
+        """Linear damping matrix, shape (6, 6)."""
+        return np.array(self.damping.linear)
+
+    @property
+    def quadratic_damping(self) -> NDArray[np.float64]:
+        """Quadratic damping coefficients, shape (6,)."""
+        return np.array(self.damping.quadratic)
+
+    @property
+    def restoring_arm(self) -> NDArray[np.float64]:
+        """W r_G - B r_B [N m], shape (3,): its product with the direction of down is the righting moment."""
+        return self.weight * np.array(
+            self.rigid_body.center_of_mass
+        ) - self.buoyant_force * np.array(self.buoyancy.center)
+
+    @property
+    def wrench_limits(self) -> NDArray[np.float64]:
+        """Largest force and moment of each axis [N, N m], shape (6,)."""
+        return np.array(self.limits.wrench)
+
+
+def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the matrix S(a) with S(a) b = a x b, shape (3, 3)."""
+    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
+
+
+__all__ = [
+    "STANDARD_GRAVITY",
+    "Buoyancy",
+    "Damping",
+    "Dimensions",
+    "Limits",
+    "RigidBody",
+    "Thruster",
+    "Vector6",
+    "Vehicle",
+    "skew",
+]

@@ -1,0 +1,219 @@
+"""Checks across the fields of a vehicle: physics that must hold, and magnitudes that betray a wrong unit.
+
+Each check raises `Implausible` with the field, the value, the limit and the remedy.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from dq_marine.vehicles.model import Vehicle
+
+SYMMETRY_TOLERANCE = 1e-6
+DENSITY_RANGE = (0.05, 25.0)  # mean density over that of water
+ADDED_MASS_LIMIT = 50.0  # largest added over rigid-body mass, seen along a flat plate's normal
+ACCELERATION_LIMIT = 500.0  # largest force over mass [m/s^2]
+BOX_FILL_RANGE = (0.002, 3.0)  # displaced volume over length x width x height
+REACH = 1.0  # centres lie within this many overall lengths of the origin
+
+
+class Implausible(ValueError):  # noqa: N818 - reported by pydantic, which wants a ValueError
+    """A field contradicts physics, or another field, by more than any real vehicle would."""
+
+    def __init__(self, field: str, value: object, problem: str, remedy: str) -> None:
+        self.field = field
+        self.value = value
+        self.problem = problem
+        self.remedy = remedy
+        super().__init__(f"{problem}; {remedy}")
+
+
+def check_vehicle(vehicle: Vehicle) -> None:
+    """Check a vehicle whose fields are each valid on their own.
+
+    Raises:
+        Implausible: for the first contradiction found.
+    """
+    _check_symmetric("rigid_body.inertia", np.array(vehicle.rigid_body.inertia))
+    _check_symmetric("added_mass", np.array(vehicle.added_mass))
+    _check_added_mass_sign(vehicle)
+    _check_density(vehicle)
+    _check_dimensions(vehicle)
+    _check_rigid_inertia(vehicle)
+    _check_mass_matrix(vehicle)
+    _check_dissipative(vehicle)
+    _check_added_mass_size(vehicle)
+    _check_limits(vehicle)
+    _check_thrusters(vehicle)
+
+
+def _check_symmetric(field: str, matrix: NDArray[np.float64]) -> None:
+    asymmetry = float(np.abs(matrix - matrix.T).max())
+    largest = float(np.abs(matrix).max())
+    if asymmetry > SYMMETRY_TOLERANCE * largest:
+        i, j = np.unravel_index(int(np.abs(matrix - matrix.T).argmax()), matrix.shape)
+        raise Implausible(
+            field,
+            f"[{i}][{j}] = {matrix[i, j]:.6g}, [{j}][{i}] = {matrix[j, i]:.6g}",
+            f"the matrix is not symmetric: entries differ by {asymmetry:.3g}, more than "
+            f"{SYMMETRY_TOLERANCE:g} of the largest, {largest:.4g}",
+            "check the signs of the off-diagonal entries, or write the symmetric part (M + M^T)/2",
+        )
+
+
+def _check_added_mass_sign(vehicle: Vehicle) -> None:
+    diagonal = np.diag(np.array(vehicle.added_mass))
+    if diagonal.min() < 0.0:
+        i = int(diagonal.argmin())
+        raise Implausible(
+            "added_mass",
+            f"[{i}][{i}] = {diagonal[i]:.6g}",
+            "a diagonal entry of the added mass is negative",
+            "published hydrodynamic derivatives (X_udot, Y_vdot, ...) are negative; write minus them",
+        )
+
+
+def _check_rigid_inertia(vehicle: Vehicle) -> None:
+    body = vehicle.rigid_body
+    mass, center = body.mass, np.array(body.center_of_mass)
+    about_com = np.array(body.inertia)
+    if body.inertia_about == "body_origin":
+        about_com = about_com - mass * (center @ center * np.eye(3) - np.outer(center, center))
+    moments = np.linalg.eigvalsh(about_com)
+    if moments[0] <= 0.0 or moments[0] + moments[1] < moments[2] * (1.0 - 1e-9):
+        raise Implausible(
+            "rigid_body.inertia",
+            [float(f"{m:.6g}") for m in moments],
+            "the principal moments about the centre of mass are not those of a body: each must be positive and "
+            "at most the sum of the other two",
+            "check products of inertia, center_of_mass and inertia_about",
+        )
+    longest = max(vehicle.dimensions.length, vehicle.dimensions.width, vehicle.dimensions.height)
+    radius = float(np.sqrt(moments[2] / mass))
+    if not 0.02 * longest <= radius <= longest:
+        raise Implausible(
+            "rigid_body.inertia",
+            f"{moments[2]:.6g} kg m^2",
+            f"its radius of gyration, {radius:.3g} m, does not fit a vehicle {longest:.3g} m long (0.02 to 1 "
+            "lengths)",
+            "give the inertia in kg m^2 and the dimensions in m",
+        )
+
+
+def _check_mass_matrix(vehicle: Vehicle) -> None:
+    smallest = float(np.linalg.eigvalsh(vehicle.mass_matrix).min())
+    if smallest <= 0.0:
+        raise Implausible(
+            "added_mass",
+            f"smallest eigenvalue of M_RB + M_A = {smallest:.4g}",
+            "the mass matrix is not positive definite",
+            "check the signs and the reference point of the off-diagonal entries",
+        )
+
+
+def _check_dissipative(vehicle: Vehicle) -> None:
+    linear = vehicle.linear_damping
+    smallest = float(np.linalg.eigvalsh(0.5 * (linear + linear.T)).min())
+    if smallest < -1e-9 * float(np.abs(linear).max()):
+        raise Implausible(
+            "damping.linear",
+            f"smallest eigenvalue of its symmetric part = {smallest:.4g}",
+            "the linear damping feeds energy in",
+            "write damping positive: minus the derivatives X_u, Y_v, ...",
+        )
+
+
+def _check_density(vehicle: Vehicle) -> None:
+    ratio = vehicle.rigid_body.mass / (vehicle.buoyancy.volume * vehicle.buoyancy.water_density)
+    low, high = DENSITY_RANGE
+    if not low <= ratio <= high:
+        raise Implausible(
+            "rigid_body.mass",
+            f"{vehicle.rigid_body.mass:.6g} kg in {vehicle.buoyancy.volume:.6g} m^3",
+            f"the mean density is {ratio:.3g} times that of the water, outside {low:g} to {high:g}",
+            "give the mass in kg, the volume in m^3 and the water density in kg/m^3",
+        )
+    if not 500.0 <= vehicle.buoyancy.water_density <= 2000.0:
+        raise Implausible(
+            "buoyancy.water_density",
+            vehicle.buoyancy.water_density,
+            "no water has a density outside 500 to 2000 kg/m^3",
+            "give it in kg/m^3",
+        )
+
+
+def _check_dimensions(vehicle: Vehicle) -> None:
+    size = vehicle.dimensions
+    fill = vehicle.buoyancy.volume / (size.length * size.width * size.height)
+    low, high = BOX_FILL_RANGE
+    if not low <= fill <= high:
+        raise Implausible(
+            "dimensions",
+            f"{size.length:g} x {size.width:g} x {size.height:g} m",
+            f"the displaced volume is {fill:.3g} times this box, outside {low:g} to {high:g}",
+            "give lengths in m and the volume in m^3",
+        )
+    reach = REACH * max(size.length, size.width, size.height)
+    for field, center in (
+        ("rigid_body.center_of_mass", vehicle.rigid_body.center_of_mass),
+        ("buoyancy.center", vehicle.buoyancy.center),
+    ):
+        if float(np.linalg.norm(center)) > reach:
+            raise Implausible(
+                field,
+                center,
+                f"it lies {np.linalg.norm(center):.3g} m from the origin of a vehicle {reach:.3g} m long",
+                "give positions in m from the body origin",
+            )
+
+
+def _check_added_mass_size(vehicle: Vehicle) -> None:
+    added = np.diag(np.array(vehicle.added_mass))
+    rigid = np.diag(vehicle.rigid_body_matrix)
+    ratio = added / rigid
+    if ratio.max() > ADDED_MASS_LIMIT:
+        i = int(ratio.argmax())
+        raise Implausible(
+            "added_mass",
+            f"[{i}][{i}] = {added[i]:.6g}",
+            f"it is {ratio[i]:.3g} times the rigid body's {rigid[i]:.4g}, more than {ADDED_MASS_LIMIT:g}",
+            "give added mass in kg, kg m and kg m^2, not as dimensionless derivatives",
+        )
+
+
+def _check_limits(vehicle: Vehicle) -> None:
+    limits = np.array(vehicle.limits.wrench)
+    if limits.max() == 0.0:
+        raise Implausible(
+            "limits.wrench",
+            vehicle.limits.wrench,
+            "no axis is actuated",
+            "give at least one axis a force or moment",
+        )
+    reach = max(vehicle.dimensions.length, vehicle.dimensions.width, vehicle.dimensions.height)
+    largest = ACCELERATION_LIMIT * vehicle.rigid_body.mass
+    bounds = np.array([largest] * 3 + [largest * reach] * 3)
+    if (limits > bounds).any():
+        i = int((limits / bounds).argmax())
+        raise Implausible(
+            "limits.wrench",
+            f"[{i}] = {limits[i]:.6g}",
+            f"it would accelerate the vehicle's {vehicle.rigid_body.mass:.4g} kg beyond "
+            f"{ACCELERATION_LIMIT:g} m/s^2",
+            "give forces in N and moments in N m",
+        )
+
+
+def _check_thrusters(vehicle: Vehicle) -> None:
+    for i, thruster in enumerate(vehicle.thrusters):
+        if not any(thruster.direction):
+            raise Implausible(
+                f"thrusters.{i}.direction",
+                thruster.direction,
+                "the direction is the zero vector",
+                "give the direction of the force at positive thrust",
+            )
