@@ -20,9 +20,7 @@ def finite_array(name: str, value: ArrayLike, size: int) -> NDArray[np.float64]:
     try:
         array = np.array(value, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise InvalidInputError(
-            f"{name} = {value!r} is not numeric; give {size} numbers"
-        ) from error
+        raise InvalidInputError(f"{name} = {value!r} is not numeric; give {size} numbers") from error
     if array.shape != (size,):
         raise InvalidInputError(f"{name} has shape {array.shape}; give shape ({size},)")
     if not np.isfinite(array).all():

@@ -91,6 +91,10 @@ class Scene:
             f"computes {terms})"
         )
 
+    def __reduce__(self) -> Any:
+        """Travel as the arguments: a composition's functions are made anew where the scene arrives."""
+        return _rebuild, (self.vehicle, self.current_ned.tolist(), self.scheme, self.step)
+
     def stepper(self) -> OneBody:
         """Return a body at rest at the world's origin, with the step compiled for this scene."""
         from dq_marine.engines.one_body import OneBody  # here: it imports Numba
@@ -203,6 +207,10 @@ class Scene:
                 f"{self.step * fastest:.3g} with omega = {fastest:.3g} rad/s must stay below 2; give a step "
                 f"below {2.0 / fastest:.3g} s (0.1 of it for accuracy)"
             )
+
+
+def _rebuild(vehicle: Vehicle, current: list[float], scheme: str, step: float) -> Scene:
+    return Scene(vehicle, current=current, scheme=scheme, step=step)
 
 
 def _angular_first(m: NDArray[np.float64]) -> NDArray[np.float64]:

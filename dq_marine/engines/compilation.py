@@ -39,35 +39,32 @@ def modules_of(package: ModuleType) -> list[ModuleType]:
     return [importlib.import_module(f"{package.__name__}.{name}") for name in names]
 
 
-def functions_of(module: ModuleType) -> list[FunctionType]:
-    """Return the plain functions that a module defines."""
-    return [
-        value
-        for value in vars(module).values()
-        if inspect.isfunction(value) and value.__module__ == module.__name__
-    ]
+def used_functions(function: Callable[..., Any]) -> list[FunctionType]:
+    """Return the plain Python functions that a function closes over or calls by a name of its module."""
+    cells = [cell.cell_contents for cell in getattr(function, "__closure__", None) or ()]
+    code, names = function.__code__, function.__globals__
+    values = cells + [names[name] for name in code.co_names if name in names]
+    return [value for value in values if inspect.isfunction(value)]
+
+
+def all_used_functions(function: Callable[..., Any]) -> list[FunctionType]:
+    """Return the plain functions that a function uses, directly or not, each once, in order of appearance."""
+    found: dict[FunctionType, None] = {}
+
+    def visit(user: Callable[..., Any]) -> None:
+        for used in used_functions(user):
+            if used not in found:
+                found[used] = None
+                visit(used)
+
+    visit(function)
+    return list(found)
 
 
 @functools.cache
-def make_compilable(function: Callable[..., Any]) -> None:
-    """Let compiled code call a plain function and the functions it closes over."""
+def make_compilable(function: FunctionType) -> None:
+    """Let compiled code call a plain function, which stays plain Python."""
     register_jitable(error_model="numpy", forceinline=True)(function)
-    for inner in closed_over(function):
-        make_compilable(inner)
-
-
-def closed_over(function: Callable[..., Any]) -> list[FunctionType]:
-    """Return the plain functions in a function's closure."""
-    cells = getattr(function, "__closure__", None) or ()
-    return [cell.cell_contents for cell in cells if inspect.isfunction(cell.cell_contents)]
-
-
-@functools.cache
-def register_kernel() -> None:
-    """Let compiled code call every function of the kernel."""
-    for module in modules_of(dq_marine.kernel):
-        for function in functions_of(module):
-            make_compilable(function)
 
 
 @functools.cache
@@ -87,18 +84,13 @@ def source_fingerprint(files: frozenset[str]) -> str:
 
 def name_of(function: Callable[..., Any]) -> str:
     """Return the dotted name of a function, followed by those of the functions it closes over."""
-    inner = closed_over(function)
+    cells = [cell.cell_contents for cell in getattr(function, "__closure__", None) or ()]
+    inner = ", ".join(name_of(value) for value in cells if inspect.isfunction(value))
     name = f"{function.__module__}.{function.__qualname__}"
-    return f"{name}[{', '.join(map(name_of, inner))}]" if inner else name
+    return f"{name}[{inner}]" if inner else name
 
 
-def sources_of(function: Callable[..., Any]) -> set[str]:
-    """Return the source files of a function and of the functions it closes over."""
-    files = {inspect.getsourcefile(function) or name_of(function)}
-    return files.union(*map(sources_of, closed_over(function)))
-
-
-class _Locator(_CacheLocator):  # type: ignore[misc]
+class _Locator(_CacheLocator):
     """Places compiled code under `cache_directory()`, in a folder named by the source fingerprint."""
 
     def __init__(self, folder: Path, fingerprint: str) -> None:
@@ -115,7 +107,7 @@ class _Locator(_CacheLocator):  # type: ignore[misc]
         return "dq"
 
 
-class _CompositionCache(FunctionCache):  # type: ignore[misc]
+class _CompositionCache(FunctionCache):
     """Numba's cache with a key that follows the composition.
 
     Numba keys a closure on a pickle of its cells, which differs from process to process when a cell holds a
@@ -125,7 +117,7 @@ class _CompositionCache(FunctionCache):  # type: ignore[misc]
     def __init__(self, function: Callable[..., Any], key: str, fingerprint: str) -> None:
         folder = cache_directory() / fingerprint
 
-        class Implementation(CompileResultCacheImpl):  # type: ignore[misc]
+        class Implementation(CompileResultCacheImpl):
             def __init__(self, py_func: Callable[..., Any]) -> None:
                 self._lineno = py_func.__code__.co_firstlineno
                 self._locator = _Locator(folder, fingerprint)
@@ -152,7 +144,9 @@ def announce(message: str) -> None:
 
 
 def compile_function(function: Callable[..., Any], layout: str) -> Callable[..., Any]:
-    """Compile a function that closes over plain functions, for any signature it is then called with.
+    """Compile a function and the plain functions it uses, for any signature it is then called with.
+
+    Functions are found by the names they are called by: import them by name, not through their module.
 
     Args:
         function: what to compile.
@@ -162,14 +156,15 @@ def compile_function(function: Callable[..., Any], layout: str) -> Callable[...,
         The compiled function; it is loaded from disk if sources, Numba and processor are those of the last
         time.
     """
-    register_kernel()
-    for inner in closed_over(function):
-        make_compilable(inner)
+    used = all_used_functions(function)
+    for part in used:
+        make_compilable(part)
     compiled = numba.njit(error_model="numpy", nogil=True)(function)
     if _writable(cache_directory()):
-        fingerprint = source_fingerprint(frozenset(sources_of(function)))
-        compiled._cache = _CompositionCache(function, f"{name_of(function)}|{layout}", fingerprint)
-    return compiled  # type: ignore[no-any-return]
+        files = frozenset(inspect.getsourcefile(part) or name_of(part) for part in (function, *used))
+        cache = _CompositionCache(function, f"{name_of(function)}|{layout}", source_fingerprint(files))
+        compiled._cache = cache
+    return compiled
 
 
 @functools.cache

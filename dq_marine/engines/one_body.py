@@ -111,9 +111,7 @@ class OneBody:
         """
         wrench = finite_array("wrench_body", wrench_body, 6)
         count = positive_integer("steps", steps)
-        status, completed, _, residual_squared = self._advance(
-            self._numbers, self._state, wrench, count
-        )
+        status, completed, _, residual_squared = self._advance(self._numbers, self._state, wrench, count)
         if status != ACCEPTED:
             raise self._refusal(status, completed, wrench, residual_squared)
         self.time += count * self.step_size
@@ -169,9 +167,7 @@ class OneBody:
     @property
     def relative_velocity_body(self) -> NDArray[np.float64]:
         """Velocity through the water nu_r, Fossen's order [m/s, rad/s], shape (6,)."""
-        return np.array(
-            to_fossen(twist_from_momentum(self.parameters.inertia, self.state.momentum))
-        )
+        return np.array(to_fossen(twist_from_momentum(self.parameters.inertia, self.state.momentum)))
 
     @property
     def velocity_body(self) -> NDArray[np.float64]:

@@ -81,7 +81,5 @@ def full_sandwich(d: Matrix6, m: Matrix6) -> Matrix6:
     return matrix6_multiply(d, matrix6_multiply(m, d))
 
 
-DIAGONAL = DampingAlgebra(
-    diagonal_at, spatial_multiply_elementwise, diagonal_add_scaled, diagonal_sandwich
-)
+DIAGONAL = DampingAlgebra(diagonal_at, spatial_multiply_elementwise, diagonal_add_scaled, diagonal_sandwich)
 FULL = DampingAlgebra(full_at, matrix6_transform, matrix6_add_scaled, full_sandwich)

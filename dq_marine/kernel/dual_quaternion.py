@@ -42,9 +42,7 @@ def dual_conjugate(a: DualQuaternion) -> DualQuaternion:
 
 def pose_from_parts(q: Quaternion, position: Vector3) -> DualQuaternion:
     """Return the pose of a body at `position` (world) with unit attitude q (body to world)."""
-    return DualQuaternion(
-        q, quaternion_scale(0.5, quaternion_multiply(quaternion_from_vector(position), q))
-    )
+    return DualQuaternion(q, quaternion_scale(0.5, quaternion_multiply(quaternion_from_vector(position), q)))
 
 
 def pose_position(pose: DualQuaternion) -> Vector3:

@@ -56,27 +56,21 @@ class QuadraticKick(NamedTuple):
     damping: DiagonalDamping | FullDamping
 
 
-def undamped_kick(
-    kick: UndampedKick, inertia: Inertia, momentum: Spatial, wrench: Spatial
-) -> Spatial:
+def undamped_kick(kick: UndampedKick, inertia: Inertia, momentum: Spatial, wrench: Spatial) -> Spatial:
     """Return mu + h F."""
     return spatial_add_scaled(momentum, kick.duration, wrench)
 
 
 def linear_kick(kick: LinearKick, inertia: Inertia, momentum: Spatial, wrench: Spatial) -> Spatial:
     """Return P mu + Q F: (K2)-(K3) with a constant D."""
-    return spatial_add(
-        matrix6_transform(kick.propagator, momentum), matrix6_transform(kick.forcing, wrench)
-    )
+    return spatial_add(matrix6_transform(kick.propagator, momentum), matrix6_transform(kick.forcing, wrench))
 
 
 def make_quadratic_kick(algebra: DampingAlgebra) -> Kick:
     """Return the kick (K1)-(K3) for one kind of damping matrix."""
     damping_at, damping_apply, damping_add_scaled, damping_sandwich = algebra
 
-    def quadratic_kick(
-        kick: QuadraticKick, inertia: Inertia, momentum: Spatial, wrench: Spatial
-    ) -> Spatial:
+    def quadratic_kick(kick: QuadraticKick, inertia: Inertia, momentum: Spatial, wrench: Spatial) -> Spatial:
         h = kick.duration
         twist = twist_from_momentum(inertia, momentum)
         middle = matrix6_solve(  # (K1)
@@ -88,9 +82,7 @@ def make_quadratic_kick(algebra: DampingAlgebra) -> Kick:
         slowed = damping_apply(d, twist_from_momentum(inertia, excess))
         change = matrix6_solve(  # (K3)
             damping_add_scaled(
-                matrix6_add_scaled(
-                    inertia.matrix, 0.5 * h * h, damping_sandwich(d, inertia.inverse)
-                ),
+                matrix6_add_scaled(inertia.matrix, 0.5 * h * h, damping_sandwich(d, inertia.inverse)),
                 h,
                 d,
             ),

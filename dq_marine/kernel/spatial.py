@@ -84,9 +84,7 @@ def spatial_scale(s: float, a: Spatial) -> Spatial:
 
 def spatial_multiply_elementwise(a: Spatial, b: Spatial) -> Spatial:
     """Return (a_i b_i)."""
-    return Spatial(
-        multiply_elementwise(a.angular, b.angular), multiply_elementwise(a.linear, b.linear)
-    )
+    return Spatial(multiply_elementwise(a.angular, b.angular), multiply_elementwise(a.linear, b.linear))
 
 
 def spatial_absolute(a: Spatial) -> Spatial:

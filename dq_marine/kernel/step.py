@@ -119,9 +119,7 @@ def make_advance(
     add_forces = join_forces(composition.forces)
     kick, drift, carry = composition.kick, composition.drift, composition.water.carry
 
-    def advance(
-        parameters: StepParameters, state: BodyState, wrench: Spatial, steps: int
-    ) -> StepOutcome:
+    def advance(parameters: StepParameters, state: BodyState, wrench: Spatial, steps: int) -> StepOutcome:
         inertia = parameters.inertia
         pose = state.pose
         force = add_forces(parameters.forces, pose, wrench)
@@ -134,9 +132,7 @@ def make_advance(
             worst = max(worst, report.relative_residual_squared)
             if not drift_accepted(report):
                 status = WRONG_BRANCH if report.determinant <= 0.0 else NOT_CONVERGED
-                return StepOutcome(
-                    state, status, completed, iterations, report.relative_residual_squared
-                )
+                return StepOutcome(state, status, completed, iterations, report.relative_residual_squared)
             pose = carry(parameters.water, parameters.h, pose)
             force = add_forces(parameters.forces, pose, wrench)
             closing = parameters.half_kick if completed == steps - 1 else parameters.full_kick

@@ -12,9 +12,7 @@ Vector3: TypeAlias = Row3
 Vector6: TypeAlias = Row6
 NonNegative: TypeAlias = Annotated[float, Field(ge=0)]
 Positive: TypeAlias = Annotated[float, Field(gt=0)]
-NonNegative6: TypeAlias = tuple[
-    NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative
-]
+NonNegative6: TypeAlias = tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative]
 
 
 def _square(size: int) -> Any:
@@ -37,9 +35,7 @@ def _square(size: int) -> Any:
 
 
 Matrix3: TypeAlias = Annotated[tuple[Row3, Row3, Row3], BeforeValidator(_square(3))]
-Matrix6: TypeAlias = Annotated[
-    tuple[Row6, Row6, Row6, Row6, Row6, Row6], BeforeValidator(_square(6))
-]
+Matrix6: TypeAlias = Annotated[tuple[Row6, Row6, Row6, Row6, Row6, Row6], BeforeValidator(_square(6))]
 
 
 class Table(BaseModel):

@@ -179,9 +179,9 @@ class Vehicle(Table):
     @property
     def restoring_arm(self) -> NDArray[np.float64]:
         """W r_G - B r_B [N m], shape (3,): its product with the direction of down is the righting moment."""
-        return self.weight * np.array(
-            self.rigid_body.center_of_mass
-        ) - self.buoyant_force * np.array(self.buoyancy.center)
+        return self.weight * np.array(self.rigid_body.center_of_mass) - self.buoyant_force * np.array(
+            self.buoyancy.center
+        )
 
     @property
     def wrench_limits(self) -> NDArray[np.float64]:

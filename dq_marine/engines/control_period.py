@@ -1,0 +1,74 @@
+"""One control period of one body's task, compiled: action in, observation and verdict out."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+from numba import types
+
+from dq_marine.engines.compilation import compile_function
+from dq_marine.engines.one_body import AT_REST
+from dq_marine.engines.packing import make_load, store, structure_type
+from dq_marine.kernel.step import ACCEPTED, Composition
+from dq_marine.kernel.task import Task, make_control_period
+
+ACTION_NOT_FINITE = -1
+
+
+@functools.cache
+def compiled_control_period(
+    composition: Composition,
+    task: Task,
+    step_layout: types.Type,
+    aim_layout: types.Type,
+    memory_layout: types.Type,
+) -> Callable[..., Any]:
+    """Compile one control period on arrays.
+
+    The compiled function takes (parameters, aim, state, memory, action, observation, measures, steps), all
+    arrays float64 but the observation, float32. If the status it returns is ACCEPTED it has changed state,
+    memory, observation and measures; else none of them, with status ACTION_NOT_FINITE for an action with NaN or
+    infinity. It returns (status, completed, iterations, residual_squared, reward, terminated).
+    """
+    control_period = make_control_period(composition, task)
+    load_parameters = make_load(step_layout)
+    load_aim = make_load(aim_layout)
+    load_memory = make_load(memory_layout)
+    load_state = make_load(structure_type(AT_REST))
+
+    def control_period_arrays(
+        parameters: Any,
+        aim: Any,
+        state: Any,
+        memory: Any,
+        action: Any,
+        observation: Any,
+        measures: Any,
+        steps: int,
+    ) -> Any:
+        command = (action[0], action[1], action[2], action[3], action[4], action[5])
+        total = command[0] + command[1] + command[2] + command[3] + command[4] + command[5]
+        if total - total != 0.0:
+            return ACTION_NOT_FINITE, 0, 0, 0.0, 0.0, 0.0
+        outcome = control_period(
+            load_parameters(parameters), load_aim(aim), load_state(state), load_memory(memory), command, steps
+        )
+        step, verdict = outcome.step, outcome.verdict
+        if step.status != ACCEPTED:
+            return step.status, step.completed, step.iterations, step.residual_squared, 0.0, 1.0
+        store(state, step.state)
+        store(memory, outcome.memory)
+        store(observation, outcome.observation)
+        store(measures, verdict.measures)
+        return (
+            step.status,
+            step.completed,
+            step.iterations,
+            step.residual_squared,
+            verdict.reward,
+            verdict.terminated,
+        )
+
+    return compile_function(control_period_arrays, f"{step_layout}|{aim_layout}|{memory_layout}")

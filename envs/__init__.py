@@ -1,0 +1,1 @@
+"""Gymnasium environments. Importing `dq_marine` registers them."""

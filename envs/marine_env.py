@@ -1,0 +1,435 @@
+"""What every environment of one vehicle shares: stepping, checks, state, rendering. A task adds its formulas."""
+
+from __future__ import annotations
+
+import copy
+import os
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar, NamedTuple
+
+import gymnasium as gym
+import numpy as np
+from gymnasium.error import ResetNeeded
+from numpy.typing import NDArray
+
+from dq_marine.checks import finite_array, finite_number, positive_integer, unit_quaternion
+from dq_marine.engines.control_period import ACTION_NOT_FINITE, compiled_control_period
+from dq_marine.engines.one_body import AT_REST, REFUSALS, place_body
+from dq_marine.engines.packing import flatten, pack, structure_type, unpack
+from dq_marine.envs.view import EpisodeView
+from dq_marine.errors import InvalidInputError
+from dq_marine.kernel.body import Motion
+from dq_marine.kernel.current import UniformCurrent
+from dq_marine.kernel.spatial import to_fossen
+from dq_marine.kernel.step import ACCEPTED, StepParameters, make_motion
+from dq_marine.kernel.task import Task
+from dq_marine.scene import Scene
+from dq_marine.vehicles import Vehicle, load_vehicle
+from dq_marine.viewer.snapshot import Snapshot
+
+Observation = NDArray[np.float32]
+Action = NDArray[np.float32]
+
+START_OPTIONS = ("position", "quaternion", "velocity", "current", "goal_position", "goal_quaternion")
+"""Keys of `reset`'s options; what is not given is drawn."""
+
+
+class Start(NamedTuple):
+    """Where an episode starts: position in NED (3,), attitude body to NED (4,), velocity over ground (6,)."""
+
+    position_ned: NDArray[np.float64]
+    quaternion_body_to_ned: NDArray[np.float64]
+    velocity_body: NDArray[np.float64]
+
+
+class MarineEnv(gym.Env[Observation, Action], ABC):
+    """One vehicle in a uniform current, driven by body thrust and torque.
+
+    A task derives from it, names its kernel functions in `task` and says how goals and starts are drawn.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 10}  # type: ignore[misc]
+    task: ClassVar[Task]
+
+    def __init__(
+        self,
+        vehicle: Vehicle | str | os.PathLike[str],
+        *,
+        current: float | Sequence[float],
+        control_period: float,
+        substeps: int,
+        scheme: str,
+        render_mode: str | None,
+        record: bool,
+    ) -> None:
+        """Check and compose; see the tasks for the arguments."""
+        self.vehicle = load_vehicle(vehicle)
+        self.control_period = finite_number("control_period", control_period, above=0.0)
+        self.substeps = positive_integer("substeps", substeps)
+        self.current_speed, self.current_ned = _current(current)
+        largest = np.array([self.current_speed, 0.0, 0.0]) + self.current_ned
+        step = self.control_period / self.substeps
+        self.scene = Scene(self.vehicle, current=largest, scheme=scheme, step=step)
+        modes = self.metadata["render_modes"]
+        if render_mode is not None and render_mode not in modes:
+            raise InvalidInputError(f"render_mode = {render_mode!r}; give None or one of {modes}")
+        self.render_mode = render_mode
+        self.record = bool(record)
+        self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]
+
+        self._axes = np.flatnonzero(self.vehicle.wrench_limits)
+        bound = self.observation_bound
+        self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self._axes),), np.float32)
+        self.observation_space = gym.spaces.Box(-bound, bound, dtype=np.float32)
+        self._base_parameters = self.scene.parameters_at(step)
+        self._motion = make_motion(self.scene.composition)
+        self._compiled = self._compile()
+        self._view = EpisodeView(self)
+        self._clear()
+
+    # What a task adds
+
+    @property
+    @abstractmethod
+    def observation_bound(self) -> NDArray[np.float32]:
+        """Largest magnitude of each observed number."""
+
+    @abstractmethod
+    def new_aim(self, options: dict[str, Any]) -> Any:
+        """Return the task's parameters for an episode."""
+
+    @abstractmethod
+    def new_memory(self) -> Any:
+        """Return the task's memory at an episode's start."""
+
+    @abstractmethod
+    def draw_start(self, aim: Any) -> Start:
+        """Draw where an episode starts, from `self.np_random`."""
+
+    @abstractmethod
+    def goal_pose(self, aim: Any) -> tuple[Any, Any] | None:
+        """Return the goal's position and attitude for drawing, None if there is none."""
+
+    @abstractmethod
+    def succeeds(self, measures: dict[str, float]) -> bool:
+        """Whether the measures are those of success."""
+
+    # Gymnasium
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Start an episode.
+
+        Args:
+            seed: of the random draws; an episode follows from it bit for bit.
+            options: what not to draw: any of `START_OPTIONS`, in NED and SI units.
+
+        Returns:
+            The observation, and info with the task's measures, `is_success` and `current_ned`.
+
+        Raises:
+            InvalidInputError: an option is unknown or wrong; the episode in progress is untouched.
+        """
+        super().reset(seed=seed)
+        chosen = self._checked(options)
+        aim = self.new_aim(chosen)
+        drawn_current = self._draw_current()
+        drawn = self.draw_start(aim)
+        current = chosen.get("current", drawn_current)
+        parameters = self._parameters_in(current)
+        state = place_body(
+            self.scene.composition,
+            parameters,
+            chosen.get("position", drawn.position_ned),
+            chosen.get("quaternion", drawn.quaternion_body_to_ned),
+            chosen.get("velocity", drawn.velocity_body),
+        )
+        self._aim, self._aim_numbers = aim, pack(aim)
+        self._parameters, self._numbers = parameters, pack(parameters)
+        self._state = pack(state)
+        self._memory = pack(self.new_memory())
+        self._action = np.zeros(6)
+        self._periods = 0
+        self._episode_current = np.array(current, dtype=np.float64)
+        motion = self.motion
+        self._look(motion)
+        self._measures[:] = list(flatten(self.task.judge(aim, motion, (0.0,) * 6).measures))
+        self._view.begin(self)
+        info = self._info()
+        info["current_ned"] = self._episode_current.copy()
+        return self._observation.copy(), info
+
+    def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """Hold an action for one control period.
+
+        Args:
+            action: thrust and torque of the actuated axes over their limits; saturates beyond [-1, 1].
+
+        Returns:
+            Observation, reward, terminated, truncated (False: `gym.make` adds the time limit), info.
+
+        Raises:
+            InvalidInputError: the action has a wrong shape or a NaN or infinity; the state is untouched.
+            ResetNeeded: before the first reset.
+        """
+        if self._aim is None:
+            raise ResetNeeded("step() was called before reset(); call reset() first")
+        command = self._command(action)
+        status, completed, _, residual_squared, reward, terminated = self._compiled(
+            self._numbers,
+            self._aim_numbers,
+            self._state,
+            self._memory,
+            command,
+            self._observation,
+            self._measures,
+            self.substeps,
+        )
+        if status == ACTION_NOT_FINITE:
+            raise InvalidInputError(
+                f"action = {np.asarray(action).tolist()} is not finite; give finite numbers"
+            )
+        self._action = command
+        self._periods += 1
+        info = self._info()
+        if status != ACCEPTED:
+            info["integration"] = self._integration(status, completed, residual_squared)
+        if self._view.wants_frames:
+            self._view.show(self)
+        return self._observation.copy(), reward, terminated != 0.0, False, info
+
+    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+        """Return a picture, uint8 (height, width, 3), in mode "rgb_array"; None otherwise.
+
+        In mode "human" the page follows `step` and `reset` by itself, at real time.
+
+        Raises:
+            ResetNeeded: before the first reset.
+            MissingDependencyError: meshcat, or for pictures a Chromium, is not installed.
+        """
+        if self._aim is None:
+            raise ResetNeeded("render() was called before reset(); call reset() first")
+        return self._view.render(self)
+
+    def save_html(self, path: str | os.PathLike[str]) -> None:
+        """Write the episode so far as a standalone page with a timeline (play, pause, scrub).
+
+        Raises:
+            InvalidInputError: the environment was made without `record=True`, or the folder does not exist.
+            MissingDependencyError: meshcat is not installed.
+        """
+        self._view.save_html(path)
+
+    def close(self) -> None:
+        """End whatever rendering started."""
+        self._view.close()
+
+    # State
+
+    @property
+    def motion(self) -> Motion:
+        """Position, attitude and velocity over ground now."""
+        return self._motion(self._parameters, unpack(AT_REST, self._state))
+
+    @property
+    def time(self) -> float:
+        """Simulated time since reset [s]."""
+        return self._periods * self.control_period
+
+    @property
+    def position_ned(self) -> NDArray[np.float64]:
+        """Position of the body origin [m], shape (3,)."""
+        return np.array(self.motion.position_ned)
+
+    @property
+    def quaternion_body_to_ned(self) -> NDArray[np.float64]:
+        """Attitude, scalar first, shape (4,)."""
+        return self._state[:4].copy()
+
+    @property
+    def velocity_body(self) -> NDArray[np.float64]:
+        """Velocity over ground, Fossen's order [m/s, rad/s], shape (6,)."""
+        return np.array(to_fossen(self.motion.velocity))
+
+    def get_state(self) -> dict[str, Any]:
+        """Return all that the future of the episode depends on; `set_state` restarts it bit for bit."""
+        if self._aim is None:
+            raise ResetNeeded("get_state() was called before reset(); call reset() first")
+        return {
+            "state": self._state.copy(),
+            "memory": self._memory.copy(),
+            "aim": self._aim_numbers.copy(),
+            "action": self._action.copy(),
+            "measures": self._measures.copy(),
+            "observation": self._observation.copy(),
+            "current_ned": self._episode_current.copy(),
+            "periods": self._periods,
+            "random": copy.deepcopy(self.np_random.bit_generator.state),
+        }
+
+    def set_state(self, state: dict[str, Any]) -> None:
+        """Restore what `get_state` returned, here or in another environment made alike.
+
+        Raises:
+            InvalidInputError: entries are missing, unknown or of the wrong size; nothing is changed.
+        """
+        aim_template = self.new_aim({})
+        memory_template = self.new_memory()
+        sizes = {
+            "state": self._state.size,
+            "memory": len(list(flatten(memory_template))),
+            "aim": len(list(flatten(aim_template))),
+            "action": 6,
+            "measures": self._measures.size,
+            "observation": self._observation.size,
+            "current_ned": 3,
+        }
+        known = {*sizes, "periods", "random"}
+        if not isinstance(state, dict) or set(state) != known:
+            raise InvalidInputError(
+                f"state needs exactly the entries {sorted(known)}, as get_state() returns them"
+            )
+        arrays = {name: finite_array(f"state[{name!r}]", state[name], size) for name, size in sizes.items()}
+        parameters = self._parameters_in(arrays["current_ned"])
+        self.np_random.bit_generator.state = copy.deepcopy(state["random"])
+        self._aim, self._aim_numbers = unpack(aim_template, arrays["aim"]), arrays["aim"]
+        self._parameters, self._numbers = parameters, pack(parameters)
+        self._state, self._memory = arrays["state"], arrays["memory"]
+        self._action, self._measures = arrays["action"], arrays["measures"]
+        self._observation = arrays["observation"].astype(np.float32)
+        self._episode_current = arrays["current_ned"]
+        self._periods = int(state["periods"])
+        self._view.begin(self)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what cannot travel: compiled code and open windows."""
+        return {name: value for name, value in self.__dict__.items() if name not in _NOT_CARRIED}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Compile again (from the cache on disk) and start without a window."""
+        self.__dict__.update(state)
+        self._motion = make_motion(self.scene.composition)
+        self._compiled = self._compile()
+        self._view = EpisodeView(self)
+
+    def snapshot(self) -> Snapshot:
+        """Return what a viewer draws now."""
+        motion = self.motion
+        goal = self.goal_pose(self._aim)
+        return Snapshot(
+            time=self.time,
+            position_ned=np.array(motion.position_ned),
+            quaternion_body_to_ned=np.array(motion.attitude),
+            wrench_body=self._action * self.vehicle.wrench_limits,
+            current_ned=self._episode_current.copy(),
+            goal_position_ned=None if goal is None else np.array(goal[0]),
+            goal_quaternion_body_to_ned=None if goal is None else np.array(goal[1]),
+        )
+
+    # Inside
+
+    def _compile(self) -> Callable[..., Any]:
+        return compiled_control_period(
+            self.scene.composition,
+            self.task,
+            structure_type(self._base_parameters),
+            structure_type(self.new_aim({})),
+            structure_type(self.new_memory()),
+        )
+
+    def _clear(self) -> None:
+        """Set up the buffers of an episode that has not begun."""
+        self._aim: Any = None
+        self._parameters: StepParameters = self._base_parameters
+        self._state = pack(AT_REST)
+        self._memory = pack(self.new_memory())
+        self._action = np.zeros(6)
+        self._observation = np.zeros(self.observation_space.shape, dtype=np.float32)  # type: ignore[arg-type]
+        self._measures = np.zeros(len(self.task.measure_names))
+        self._periods = 0
+        self._episode_current = self.current_ned.copy()
+
+    def _command(self, action: Action) -> NDArray[np.float64]:
+        """Return the saturated action of all six axes."""
+        try:
+            given = np.asarray(action, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InvalidInputError(f"action = {action!r} is not numeric") from error
+        if given.shape != self.action_space.shape:
+            raise InvalidInputError(f"action has shape {given.shape}; give shape {self.action_space.shape}")
+        command = np.zeros(6)
+        command[self._axes] = given
+        return np.minimum(np.maximum(command, -1.0), 1.0) if abs(command).max() > 1.0 else command
+
+    def _look(self, motion: Motion) -> None:
+        """Write the observation of a motion, by the same formulas that run compiled."""
+        memory = unpack(self.new_memory(), self._memory)
+        self._observation[:] = list(flatten(self.task.observe(self._aim, memory, motion)))
+
+    def _info(self) -> dict[str, Any]:
+        measures = dict(zip(self.task.measure_names, self._measures.tolist(), strict=True))
+        return {**measures, "is_success": self.succeeds(measures)}
+
+    def _integration(self, status: int, completed: int, residual_squared: float) -> dict[str, Any]:
+        """Say why the integrator refused."""
+        velocity = self.velocity_body
+        return {
+            "refused": REFUSALS[status],
+            "residual": float(np.sqrt(residual_squared)) if np.isfinite(residual_squared) else None,
+            "completed_substeps": completed,
+            "step_times_spin": self.scene.step * float(np.linalg.norm(velocity[3:])),
+            "step_times_speed": self.scene.step * float(np.linalg.norm(velocity[:3])),
+        }
+
+    def _parameters_in(self, current: NDArray[np.float64]) -> StepParameters:
+        """Return the step's parameters in the given current."""
+        if not self._base_parameters.water:
+            return self._base_parameters
+        x, y, z = (float(component) for component in current)
+        return self._base_parameters._replace(water=UniformCurrent((x, y, z)))
+
+    def _draw_current(self) -> NDArray[np.float64]:
+        """Draw the episode's current: the fixed one, or a horizontal one up to the speed."""
+        if self.current_speed == 0.0:
+            return self.current_ned.copy()
+        speed = self.current_speed * self.np_random.uniform()
+        direction = self.np_random.uniform(-np.pi, np.pi)
+        return np.array([speed * np.cos(direction), speed * np.sin(direction), 0.0])
+
+    def _checked(self, options: dict[str, Any] | None) -> dict[str, Any]:
+        """Return reset's options as arrays."""
+        if options is None:
+            return {}
+        unknown = sorted(set(options) - set(START_OPTIONS))
+        if unknown:
+            raise InvalidInputError(f"options has unknown keys {unknown}; it takes {list(START_OPTIONS)}")
+        checked: dict[str, Any] = {}
+        for name, value in options.items():
+            label = f"options[{name!r}]"
+            if name.endswith("quaternion"):
+                checked[name] = unit_quaternion(label, value)
+            else:
+                checked[name] = finite_array(label, value, 6 if name == "velocity" else 3)
+        if "current" in checked and checked["current"].any() and not self._base_parameters.water:
+            raise InvalidInputError(
+                f"options['current'] = {checked['current'].tolist()}, but the environment was made without a "
+                "current; make it with current=<largest speed>"
+            )
+        return checked
+
+
+_NOT_CARRIED = ("_compiled", "_motion", "_view")
+
+
+def _current(current: float | Sequence[float]) -> tuple[float, NDArray[np.float64]]:
+    """Return the largest drawn speed and the fixed current; one of them is zero."""
+    if np.ndim(current) == 0:
+        speed = finite_number("current", current)
+        if speed < 0.0:
+            raise InvalidInputError(
+                f"current = {speed:g} m/s; give a speed of 0 or more, or three components"
+            )
+        return speed, np.zeros(3)
+    return 0.0, finite_array("current", current, 3)  # type: ignore[arg-type]

@@ -1,0 +1,354 @@
+"""Station keeping: reach a goal pose and hold it in a current that the agent does not see.
+
+Registered as `dq_marine/StationKeeping-v0`.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.checks import finite_array, finite_number, unit_quaternion
+from dq_marine.envs.marine_env import MarineEnv, Start
+from dq_marine.errors import InvalidInputError
+from dq_marine.kernel.body import Motion
+from dq_marine.kernel.quaternion import (
+    Quaternion,
+    quaternion_conjugate,
+    quaternion_multiply,
+    rotate,
+    rotate_inverse,
+)
+from dq_marine.kernel.spatial import Spatial, from_fossen
+from dq_marine.kernel.task import Task, Verdict
+from dq_marine.kernel.vector3 import Vector3, add_scaled, dot, subtract
+from dq_marine.vehicles import Vehicle
+
+SPEED_BOUND = 10.0
+"""Velocities are observed up to this [m/s, rad/s]."""
+
+INTEGRAL_BOUND = 20.0
+"""The integral of the position error is held within this along each NED axis [m s]."""
+
+SUCCESS_POSITION = 0.1
+"""On station: distance to the goal [m] below which, with `SUCCESS_ATTITUDE`, `is_success` is True."""
+
+SUCCESS_ATTITUDE = math.radians(5.0)
+"""On station: attitude error [rad]."""
+
+
+@dataclass(frozen=True)
+class StationKeepingReward:
+    """Weights and widths of the reward of one control period, for distance d, attitude error e and action a.
+
+    r = position exp(-(d/position_width)^2) + precision exp(-d/precision_width)
+        + attitude exp(-e/attitude_width) - effort mean(a^2)
+
+    The first and third terms are MarineGym's pose-hold reward; the second keeps a gradient where the first is
+    flat; the small effort weight follows the finding that a large one stops learning.
+
+    Attributes:
+        position: weight of being near.
+        position_width: distance [m] at which nearness counts 1/e.
+        precision: weight of being at the goal.
+        precision_width: distance [m] at which precision counts 1/e.
+        attitude: weight of pointing as asked.
+        attitude_width: angle [rad] at which it counts 1/e.
+        effort: weight of the mean square of the action.
+    """
+
+    position: float = 0.5
+    position_width: float = 1.0
+    precision: float = 0.3
+    precision_width: float = 0.1
+    attitude: float = 0.2
+    attitude_width: float = 0.5
+    effort: float = 0.02
+
+    def __post_init__(self) -> None:
+        """Refuse weights and widths that no reward can have."""
+        for field in fields(self):
+            value = finite_number(f"reward.{field.name}", getattr(self, field.name))
+            limit = "above 0" if field.name.endswith("_width") else "0 or more"
+            if value < 0.0 or (value == 0.0 and field.name.endswith("_width")):
+                raise InvalidInputError(f"reward.{field.name} = {value:g}; give a number {limit}")
+
+
+class Weights(NamedTuple):
+    """`StationKeepingReward`, as the kernel takes it."""
+
+    position: float
+    position_width: float
+    precision: float
+    precision_width: float
+    attitude: float
+    attitude_width: float
+    effort: float
+
+
+class Aim(NamedTuple):
+    """Parameters of the task in one episode.
+
+    Attributes:
+        position_ned: of the goal [m].
+        attitude: of the goal, body to NED.
+        workspace_radius: distance from the goal [m] beyond which the episode ends.
+        period: control period [s].
+        wrench_limits: wrench at full action.
+        axes: number of actuated axes.
+        weights: of the reward.
+    """
+
+    position_ned: Vector3
+    attitude: Quaternion
+    workspace_radius: float
+    period: float
+    wrench_limits: tuple[float, float, float, float, float, float]
+    axes: float
+    weights: Weights
+
+
+class Memory(NamedTuple):
+    """Integral of the position error in NED [m s]: what lets a policy without memory oppose a current."""
+
+    error_integral: Vector3
+
+
+def act(aim: Aim, action: tuple[float, ...]) -> Spatial:
+    """Return the body wrench of a normalised action."""
+    limits = aim.wrench_limits
+    return from_fossen(
+        (
+            limits[0] * action[0],
+            limits[1] * action[1],
+            limits[2] * action[2],
+            limits[3] * action[3],
+            limits[4] * action[4],
+            limits[5] * action[5],
+        )
+    )
+
+
+def clamp(value: float, bound: float) -> float:
+    """Return value, held within -bound and bound."""
+    return max(-bound, min(bound, value))
+
+
+def clamp_vector(a: Vector3, bound: float) -> Vector3:
+    """Return a with each component held within -bound and bound."""
+    return (clamp(a[0], bound), clamp(a[1], bound), clamp(a[2], bound))
+
+
+def remember(aim: Aim, memory: Memory, motion: Motion) -> Memory:
+    """Return the integral of the position error, one control period on."""
+    error = subtract(aim.position_ned, motion.position_ned)
+    return Memory(clamp_vector(add_scaled(memory.error_integral, aim.period, error), INTEGRAL_BOUND))
+
+
+def observe(aim: Aim, memory: Memory, motion: Motion) -> Any:
+    """Return what the agent sees, all in the body frame.
+
+    Goal position [m] (3); the goal's x and y axes (6), which fix the attitude continuously and alike for q and
+    -q; velocity over ground [m/s, rad/s] (6, Fossen's order); integral of the position error [m s] (3).
+    """
+    error = rotate_inverse(motion.attitude, subtract(aim.position_ned, motion.position_ned))
+    to_goal = quaternion_multiply(quaternion_conjugate(motion.attitude), aim.attitude)
+    return (
+        clamp_vector(error, aim.workspace_radius),
+        clamp_vector(rotate(to_goal, (1.0, 0.0, 0.0)), 1.0),
+        clamp_vector(rotate(to_goal, (0.0, 1.0, 0.0)), 1.0),
+        clamp_vector(motion.velocity.linear, SPEED_BOUND),
+        clamp_vector(motion.velocity.angular, SPEED_BOUND),
+        rotate_inverse(motion.attitude, memory.error_integral),
+    )
+
+
+def judge(aim: Aim, motion: Motion, action: tuple[float, ...]) -> Verdict:
+    """Return the reward of `StationKeepingReward`, the end beyond the workspace, distance and attitude error."""
+    error = subtract(aim.position_ned, motion.position_ned)
+    distance = math.sqrt(dot(error, error))
+    to_goal = quaternion_multiply(quaternion_conjugate(motion.attitude), aim.attitude)
+    axis = (to_goal[1], to_goal[2], to_goal[3])
+    angle = 2.0 * math.atan2(math.sqrt(dot(axis, axis)), abs(to_goal[0]))
+    squares = 0.0
+    for component in action:
+        squares += component * component
+    weights = aim.weights
+    nearness = distance / weights.position_width
+    reward = (
+        weights.position * math.exp(-nearness * nearness)
+        + weights.precision * math.exp(-distance / weights.precision_width)
+        + weights.attitude * math.exp(-angle / weights.attitude_width)
+        - weights.effort * squares / aim.axes
+    )
+    terminated = 1.0 if distance > aim.workspace_radius else 0.0
+    return Verdict(reward, terminated, (distance, angle))
+
+
+TASK = Task(act, remember, observe, judge, measure_names=("position_error", "attitude_error"))
+
+
+class StationKeepingEnv(MarineEnv):
+    """Reach a goal pose and hold it in an unseen current.
+
+    Action: Box(-1, 1, (n,)), the thrust and torque of the n actuated axes, in the order surge, sway, heave, roll,
+    pitch, yaw, over the vehicle's limits. Beyond the box it saturates.
+
+    Observation: see `observe`, 18 numbers in SI units. `info` has `position_error` [m], `attitude_error` [rad]
+    and `is_success`; after a refused step also `integration`.
+
+    An episode ends (terminated) beyond `workspace_radius` or at a refused step; `gym.make` truncates it after 300
+    control periods, 30 s.
+    """
+
+    task = TASK
+
+    def __init__(
+        self,
+        vehicle: Vehicle | str | os.PathLike[str] = "bluerov2_heavy",
+        *,
+        current: float | Sequence[float] = 0.3,
+        control_period: float = 0.1,
+        substeps: int = 4,
+        scheme: str = "midpoint",
+        reward: StationKeepingReward | Mapping[str, float] | None = None,
+        goal_position: Sequence[float] = (0.0, 0.0, 5.0),
+        start_radius: float = 2.0,
+        workspace_radius: float = 6.0,
+        render_mode: str | None = None,
+        record: bool = False,
+    ) -> None:
+        """Check and compose the environment.
+
+        Args:
+            vehicle: a catalogue name, the path of a TOML file, or a `Vehicle`.
+            current: a speed [m/s]: each episode draws a horizontal current of up to it, of any direction; or
+                three numbers: this current in NED, always.
+            control_period: time between actions [s].
+            substeps: integrator steps in a control period.
+            scheme: the integrator's drift, by name.
+            reward: weights and widths, as a `StationKeepingReward` or a dictionary of its fields.
+            goal_position: in NED [m].
+            start_radius: episodes start within this distance of the goal [m], one in ten at the goal itself.
+            workspace_radius: episodes end beyond this distance from the goal [m].
+            render_mode: None, "human" (live page) or "rgb_array" (pictures).
+            record: keep the episode for `save_html`.
+
+        Raises:
+            InvalidInputError: a value is wrong.
+            VehicleFileError: the vehicle file is wrong.
+        """
+        self.reward = _reward(reward)
+        self.goal_position_ned = finite_array("goal_position", goal_position, 3)
+        self.start_radius = finite_number("start_radius", start_radius)
+        self.workspace_radius = finite_number("workspace_radius", workspace_radius, above=0.0)
+        if not 0.0 <= self.start_radius < self.workspace_radius:
+            raise InvalidInputError(
+                f"start_radius = {self.start_radius:g} m; give 0 or more and less than the workspace_radius, "
+                f"{self.workspace_radius:g} m"
+            )
+        super().__init__(
+            vehicle,
+            current=current,
+            control_period=control_period,
+            substeps=substeps,
+            scheme=scheme,
+            render_mode=render_mode,
+            record=record,
+        )
+
+    @property
+    def observation_bound(self) -> NDArray[np.float32]:
+        """Largest magnitude of each observed number, shape (18,)."""
+        rotated_integral = math.sqrt(3.0) * INTEGRAL_BOUND
+        bounds = [
+            *[self.workspace_radius] * 3,
+            *[1.0] * 6,
+            *[SPEED_BOUND] * 6,
+            *[rotated_integral * (1.0 + 1e-6)] * 3,
+        ]
+        return np.array(bounds, dtype=np.float32)
+
+    def new_aim(self, options: dict[str, Any]) -> Aim:
+        """Return the task's parameters for the episode: upright goal, heading north unless asked otherwise."""
+        position = finite_array(
+            "options['goal_position']", options.get("goal_position", self.goal_position_ned), 3
+        )
+        q = unit_quaternion(
+            "options['goal_quaternion']", options.get("goal_quaternion", (1.0, 0.0, 0.0, 0.0))
+        )
+        x, y, z = position.tolist()
+        q0, q1, q2, q3 = q.tolist()
+        limits = self.vehicle.wrench_limits
+        return Aim(
+            (x, y, z),
+            (q0, q1, q2, q3),
+            self.workspace_radius,
+            self.control_period,
+            tuple(limits.tolist()),
+            float(np.count_nonzero(limits)),
+            Weights(**{field.name: float(getattr(self.reward, field.name)) for field in fields(self.reward)}),
+        )
+
+    def new_memory(self) -> Memory:
+        """Return an empty memory."""
+        return Memory((0.0, 0.0, 0.0))
+
+    def goal_pose(self, aim: Aim) -> tuple[Vector3, Quaternion]:
+        """Return the goal's position and attitude, for drawing."""
+        return aim.position_ned, aim.attitude
+
+    def draw_start(self, aim: Aim) -> Start:
+        """Draw a start within the start radius: any heading, moderate tilt, slow; one in ten at the goal."""
+        random = self.np_random
+        direction = random.normal(size=3)
+        distance = self.start_radius * random.uniform() ** (1.0 / 3.0)
+        heading, pitch, roll = random.uniform(-1.0, 1.0, size=3) * (math.pi, 0.3, 0.3)
+        velocity = random.uniform(-0.2, 0.2, size=6)
+        at_goal = random.uniform() < 0.1
+        if at_goal:
+            return Start(np.array(aim.position_ned), np.array(aim.attitude), np.zeros(6))
+        offset = distance * direction / np.linalg.norm(direction)
+        return Start(
+            np.array(aim.position_ned) + offset, _quaternion_from_euler(roll, pitch, heading), velocity
+        )
+
+    def succeeds(self, measures: dict[str, float]) -> bool:
+        """Whether the vehicle is on station."""
+        return measures["position_error"] < SUCCESS_POSITION and measures["attitude_error"] < SUCCESS_ATTITUDE
+
+
+def _quaternion_from_euler(roll: float, pitch: float, heading: float) -> NDArray[np.float64]:
+    """Return the attitude of Fossen's Euler angles (zyx) [rad], body to NED, shape (4,)."""
+
+    def about(axis: int, angle: float) -> Quaternion:
+        q = [math.cos(0.5 * angle), 0.0, 0.0, 0.0]
+        q[axis] = math.sin(0.5 * angle)
+        return (q[0], q[1], q[2], q[3])
+
+    return np.array(
+        quaternion_multiply(about(3, heading), quaternion_multiply(about(2, pitch), about(1, roll)))
+    )
+
+
+def _reward(reward: StationKeepingReward | Mapping[str, float] | None) -> StationKeepingReward:
+    """Return the reward's weights from whatever form they were given in."""
+    if reward is None:
+        return StationKeepingReward()
+    if isinstance(reward, StationKeepingReward):
+        return reward
+    known = [field.name for field in fields(StationKeepingReward)]
+    if not isinstance(reward, Mapping):
+        raise InvalidInputError(
+            f"reward = {reward!r}; give a StationKeepingReward or a dictionary with keys among {known}"
+        )
+    unknown = sorted(set(reward) - set(known))
+    if unknown:
+        raise InvalidInputError(f"reward has unknown keys {unknown}; it takes {known}")
+    return StationKeepingReward(**reward)
