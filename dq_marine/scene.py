@@ -12,22 +12,9 @@ from numpy.typing import NDArray
 from dq_marine.checks import finite_array, finite_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
-from dq_marine.kernel.damping import DiagonalDamping, FullDamping
-from dq_marine.kernel.inertia import Inertia
-from dq_marine.kernel.kick import (
-    LinearKick,
-    QuadraticKick,
-    UndampedKick,
-    diagonal_quadratic_kick,
-    full_quadratic_kick,
-    linear_kick,
-    undamped_kick,
-)
 from dq_marine.kernel.midpoint_drift import midpoint_drift
-from dq_marine.kernel.restoring import NetWeight, RightingMoment, net_weight, righting_moment
-from dq_marine.kernel.spatial import Matrix6, Spatial, from_fossen
 from dq_marine.kernel.step import Composition, StepParameters
-from dq_marine.kernel.vector3 import Vector3
+from dq_marine.terms import DampingTerm, ForceTerm, inertia_term, nested_parameters, restoring_terms, vector3
 from dq_marine.vehicles import Vehicle, load_vehicle
 
 if TYPE_CHECKING:
@@ -81,7 +68,19 @@ class Scene:
         self.scheme = scheme
         self.step = finite_number("step", step, above=0.0)
         self._check_restoring_step()
-        self.composition, self.terms = self._compose()
+        self._restoring = self._restoring_terms()
+        self._damping = DampingTerm(
+            self.vehicle.linear_damping, self.vehicle.quadratic_damping, self.vehicle.mass_matrix
+        )
+        self._inertia = inertia_term(self.vehicle.mass_matrix)
+        names = [*(term.name for term in self._restoring), self._damping.name]
+        self.terms = tuple(filter(None, [*names, "current" if self._has_current else ""]))
+        self.composition = Composition(
+            forces=tuple(term.function for term in self._restoring),
+            kick=self._damping.kick,
+            drift=DRIFTS[scheme],
+            water=MOVING_WATER if self._has_current else STILL_WATER,
+        )
 
     def __repr__(self) -> str:
         current = self.current_ned.tolist()
@@ -122,81 +121,26 @@ class Scene:
         """Return the numbers of this scene's step for a step size [s]."""
         return StepParameters(
             h=step,
-            inertia=self._inertia(),
-            forces=_nest([parameters for _, parameters in self._forces().values()]),
-            half_kick=self._kick_parameters(0.5 * step),
-            full_kick=self._kick_parameters(step),
-            water=UniformCurrent(_triple(self.current_ned)) if self._has_current else (),
+            inertia=self._inertia,
+            forces=nested_parameters(self._restoring),
+            half_kick=self._damping.kick_parameters(0.5 * step),
+            full_kick=self._damping.kick_parameters(step),
+            water=UniformCurrent(vector3(self.current_ned)) if self._has_current else (),
         )
 
     @property
     def _has_current(self) -> bool:
         return bool(self.current_ned.any())
 
-    def _compose(self) -> tuple[Composition, tuple[str, ...]]:
-        forces = self._forces()
-        kick, damping = self._kick()
-        composition = Composition(
-            forces=tuple(function for function, _ in forces.values()),
-            kick=kick,
-            drift=DRIFTS[self.scheme],
-            water=MOVING_WATER if self._has_current else STILL_WATER,
-        )
-        current = ("current",) if self._has_current else ()
-        return composition, (*forces, *damping, *current)
-
-    def _forces(self) -> dict[str, tuple[Any, Any]]:
-        """Return the pose-dependent forces that are present: name -> (function, parameters)."""
+    def _restoring_terms(self) -> tuple[ForceTerm, ...]:
+        """Return the restoring forces, without those that are zero but for round-off."""
         vehicle = self.vehicle
-        forces: dict[str, tuple[Any, Any]] = {}
-        excess = vehicle.weight - vehicle.buoyant_force
-        if abs(excess) > NEUTRAL_TOLERANCE * vehicle.weight:
-            forces["net weight"] = (net_weight, NetWeight(excess))
-        arm = vehicle.restoring_arm
-        scale = vehicle.weight * vehicle.dimensions.length
-        if np.abs(arm).max() > NEUTRAL_TOLERANCE * scale:
-            forces["righting moment"] = (righting_moment, RightingMoment(_triple(arm)))
-        return forces
-
-    def _kick(self) -> tuple[Any, tuple[str, ...]]:
-        linear, quadratic = self.vehicle.linear_damping, self.vehicle.quadratic_damping
-        if quadratic.any():
-            if _is_diagonal(linear):
-                return diagonal_quadratic_kick, ("diagonal linear and quadratic damping",)
-            return full_quadratic_kick, ("full linear and quadratic damping",)
-        if linear.any():
-            return linear_kick, ("linear damping",)
-        return undamped_kick, ()
-
-    def _kick_parameters(self, duration: float) -> Any:
-        linear, quadratic = self.vehicle.linear_damping, self.vehicle.quadratic_damping
-        if quadratic.any():
-            coefficients = _spatial(quadratic)
-            if _is_diagonal(linear):
-                damping: Any = DiagonalDamping(_spatial(np.diag(linear)), coefficients)
-            else:
-                damping = FullDamping(_matrix6(_angular_first(linear)), coefficients)
-            return QuadraticKick(duration, damping)
-        if linear.any():
-            return self._linear_kick(duration)
-        return UndampedKick(duration)
-
-    def _linear_kick(self, duration: float) -> LinearKick:
-        """Prepare (K2)-(K3) of `kernel.kick` for a constant D."""
-        h = duration
-        d = _angular_first(self.vehicle.linear_damping)
-        m = _angular_first(self.vehicle.mass_matrix)
-        x = d @ np.linalg.inv(m)
-        one = np.eye(6)
-        # mu' = mu + M dchi, and M times (M + h D + h^2/2 D M^-1 D)^-1 is (1 + h x + h^2/2 x^2)^-1.
-        forcing = h * np.linalg.solve(one + h * x + 0.5 * h * h * x @ x, one + 0.5 * h * x)
-        return LinearKick(_matrix6(one - forcing @ x), _matrix6(forcing))
-
-    def _inertia(self) -> Inertia:
-        m = _angular_first(self.vehicle.mass_matrix)
-        inverse = np.linalg.inv(m)
-        block = np.linalg.inv(m[3:, 3:])
-        return Inertia(_matrix6(m), _matrix6(inverse), tuple(block.ravel().tolist()))  # type: ignore[arg-type]
+        excess, arm = vehicle.weight - vehicle.buoyant_force, vehicle.restoring_arm
+        if abs(excess) <= NEUTRAL_TOLERANCE * vehicle.weight:
+            excess = 0.0
+        if np.abs(arm).max() <= NEUTRAL_TOLERANCE * vehicle.weight * vehicle.dimensions.length:
+            arm = np.zeros(3)
+        return restoring_terms(excess, arm)
 
     def _check_restoring_step(self) -> None:
         """The restoring moment is explicit at the node: stable for h omega < 2."""
@@ -211,37 +155,3 @@ class Scene:
 
 def _rebuild(vehicle: Vehicle, current: list[float], scheme: str, step: float) -> Scene:
     return Scene(vehicle, current=current, scheme=scheme, step=step)
-
-
-def _angular_first(m: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Reorder a 6x6 matrix from Fossen's order to angular first (the swap is its own inverse)."""
-    order = [3, 4, 5, 0, 1, 2]
-    return m[np.ix_(order, order)]
-
-
-def _matrix6(m: NDArray[np.float64]) -> Matrix6:
-    """Return an angular-first 6x6 array as kernel blocks."""
-    blocks = (m[:3, :3], m[:3, 3:], m[3:, :3], m[3:, 3:])
-    return Matrix6(*(tuple(block.ravel().tolist()) for block in blocks))  # type: ignore[arg-type]
-
-
-def _spatial(a: NDArray[np.float64]) -> Spatial:
-    """Return a 6-vector in Fossen's order as a kernel pair."""
-    return from_fossen(tuple(a.tolist()))  # type: ignore[arg-type]
-
-
-def _triple(a: NDArray[np.float64]) -> Vector3:
-    """Return a 3-vector as a kernel tuple."""
-    return (float(a[0]), float(a[1]), float(a[2]))
-
-
-def _is_diagonal(m: NDArray[np.float64]) -> bool:
-    return not (m - np.diag(np.diag(m))).any()
-
-
-def _nest(items: list[Any]) -> Any:
-    """Return (first, (second, (..., ())))."""
-    nested: Any = ()
-    for item in reversed(items):
-        nested = (item, nested)
-    return nested

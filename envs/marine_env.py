@@ -6,20 +6,22 @@ import copy
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import gymnasium as gym
 import numpy as np
 from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
-from dq_marine.checks import finite_array, finite_number, positive_integer, unit_quaternion
+from dq_marine.checks import finite_number, positive_integer
 from dq_marine.engines.control_period import ACTION_NOT_FINITE, compiled_control_period
 from dq_marine.engines.one_body import AT_REST, REFUSALS, place_body
-from dq_marine.engines.packing import flatten, pack, structure_type, unpack
+from dq_marine.engines.packing import pack, structure_type, unpack
+from dq_marine.envs.episode import Episode
+from dq_marine.envs.start import Start, checked_options, drawn_speed_and_fixed_current
 from dq_marine.envs.view import EpisodeView
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.body import Motion
+from dq_marine.kernel.body import BodyState, Motion
 from dq_marine.kernel.current import UniformCurrent
 from dq_marine.kernel.spatial import to_fossen
 from dq_marine.kernel.step import ACCEPTED, StepParameters, make_motion
@@ -30,17 +32,6 @@ from dq_marine.viewer.snapshot import Snapshot
 
 Observation = NDArray[np.float32]
 Action = NDArray[np.float32]
-
-START_OPTIONS = ("position", "quaternion", "velocity", "current", "goal_position", "goal_quaternion")
-"""Keys of `reset`'s options; what is not given is drawn."""
-
-
-class Start(NamedTuple):
-    """Where an episode starts: position in NED (3,), attitude body to NED (4,), velocity over ground (6,)."""
-
-    position_ned: NDArray[np.float64]
-    quaternion_body_to_ned: NDArray[np.float64]
-    velocity_body: NDArray[np.float64]
 
 
 class MarineEnv(gym.Env[Observation, Action], ABC):
@@ -67,7 +58,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.vehicle = load_vehicle(vehicle)
         self.control_period = finite_number("control_period", control_period, above=0.0)
         self.substeps = positive_integer("substeps", substeps)
-        self.current_speed, self.current_ned = _current(current)
+        self.current_speed, self.current_ned = drawn_speed_and_fixed_current(current)
         largest = np.array([self.current_speed, 0.0, 0.0]) + self.current_ned
         step = self.control_period / self.substeps
         self.scene = Scene(self.vehicle, current=largest, scheme=scheme, step=step)
@@ -86,7 +77,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
         self._view = EpisodeView(self)
-        self._clear()
+        self._episode: Episode | None = None
+        self._parameters = self._base_parameters
 
     # What a task adds
 
@@ -135,9 +127,9 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         super().reset(seed=seed)
         chosen = self._checked(options)
         aim = self.new_aim(chosen)
-        drawn_current = self._draw_current()
+        current = self._draw_current()
         drawn = self.draw_start(aim)
-        current = chosen.get("current", drawn_current)
+        current = chosen.get("current", current)
         parameters = self._parameters_in(current)
         state = place_body(
             self.scene.composition,
@@ -146,20 +138,10 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             chosen.get("quaternion", drawn.quaternion_body_to_ned),
             chosen.get("velocity", drawn.velocity_body),
         )
-        self._aim, self._aim_numbers = aim, pack(aim)
-        self._parameters, self._numbers = parameters, pack(parameters)
-        self._state = pack(state)
-        self._memory = pack(self.new_memory())
-        self._action = np.zeros(6)
-        self._periods = 0
-        self._episode_current = np.array(current, dtype=np.float64)
-        motion = self.motion
-        self._look(motion)
-        self._measures[:] = list(flatten(self.task.judge(aim, motion, (0.0,) * 6).measures))
+        self._episode = self._new_episode(parameters, aim, state, current)
+        self._parameters = parameters
         self._view.begin(self)
-        info = self._info()
-        info["current_ned"] = self._episode_current.copy()
-        return self._observation.copy(), info
+        return self.observation, self._info() | {"current_ned": np.array(current)}
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
@@ -174,33 +156,32 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             InvalidInputError: the action has a wrong shape or a NaN or infinity; the state is untouched.
             ResetNeeded: before the first reset.
         """
-        if self._aim is None:
-            raise ResetNeeded("step() was called before reset(); call reset() first")
+        episode = self._running("step")
         command = self._command(action)
         status, completed, _, residual_squared, reward, terminated = self._compiled(
-            self._numbers,
-            self._aim_numbers,
-            self._state,
-            self._memory,
+            episode.parameters,
+            episode.aim,
+            episode.state,
+            episode.memory,
             command,
-            self._observation,
-            self._measures,
+            episode.observation,
+            episode.measures,
             self.substeps,
         )
         if status == ACTION_NOT_FINITE:
             raise InvalidInputError(
                 f"action = {np.asarray(action).tolist()} is not finite; give finite numbers"
             )
-        self._action = command
-        self._periods += 1
+        episode.action = command
+        episode.periods += 1
         info = self._info()
         if status != ACCEPTED:
             info["integration"] = self._integration(status, completed, residual_squared)
         if self._view.wants_frames:
             self._view.show(self)
-        return self._observation.copy(), reward, terminated != 0.0, False, info
+        return episode.observation.copy(), reward, terminated != 0.0, False, info
 
-    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+    def render(self) -> NDArray[np.uint8] | None:
         """Return a picture, uint8 (height, width, 3), in mode "rgb_array"; None otherwise.
 
         In mode "human" the page follows `step` and `reset` by itself, at real time.
@@ -209,8 +190,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             ResetNeeded: before the first reset.
             MissingDependencyError: meshcat, or for pictures a Chromium, is not installed.
         """
-        if self._aim is None:
-            raise ResetNeeded("render() was called before reset(); call reset() first")
+        self._running("render")
         return self._view.render(self)
 
     def save_html(self, path: str | os.PathLike[str]) -> None:
@@ -229,14 +209,19 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     # State
 
     @property
+    def observation(self) -> Observation:
+        """What the last `reset` or `step` returned."""
+        return self._running("observation").observation.copy()
+
+    @property
     def motion(self) -> Motion:
         """Position, attitude and velocity over ground now."""
-        return self._motion(self._parameters, unpack(AT_REST, self._state))
+        return self._motion(self._parameters, self._running("motion").body)
 
     @property
     def time(self) -> float:
         """Simulated time since reset [s]."""
-        return self._periods * self.control_period
+        return self._running("time").periods * self.control_period
 
     @property
     def position_ned(self) -> NDArray[np.float64]:
@@ -246,7 +231,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     @property
     def quaternion_body_to_ned(self) -> NDArray[np.float64]:
         """Attitude, scalar first, shape (4,)."""
-        return self._state[:4].copy()
+        return np.array(self.motion.attitude)
 
     @property
     def velocity_body(self) -> NDArray[np.float64]:
@@ -254,53 +239,32 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         return np.array(to_fossen(self.motion.velocity))
 
     def get_state(self) -> dict[str, Any]:
-        """Return all that the future of the episode depends on; `set_state` restarts it bit for bit."""
-        if self._aim is None:
-            raise ResetNeeded("get_state() was called before reset(); call reset() first")
-        return {
-            "state": self._state.copy(),
-            "memory": self._memory.copy(),
-            "aim": self._aim_numbers.copy(),
-            "action": self._action.copy(),
-            "measures": self._measures.copy(),
-            "observation": self._observation.copy(),
-            "current_ned": self._episode_current.copy(),
-            "periods": self._periods,
-            "random": copy.deepcopy(self.np_random.bit_generator.state),
-        }
+        """Return all that the future depends on, the random generator included, for `set_state`.
+
+        Raises:
+            ResetNeeded: before the first reset.
+        """
+        episode = self._running("get_state").to_dict()
+        return episode | {"random": copy.deepcopy(self.np_random.bit_generator.state)}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Restore what `get_state` returned, here or in another environment made alike.
+        """Restart bit for bit from what `get_state` returned, here or in an environment made alike.
 
         Raises:
             InvalidInputError: entries are missing, unknown or of the wrong size; nothing is changed.
         """
-        aim_template = self.new_aim({})
-        memory_template = self.new_memory()
-        sizes = {
-            "state": self._state.size,
-            "memory": len(list(flatten(memory_template))),
-            "aim": len(list(flatten(aim_template))),
-            "action": 6,
-            "measures": self._measures.size,
-            "observation": self._observation.size,
-            "current_ned": 3,
-        }
-        known = {*sizes, "periods", "random"}
-        if not isinstance(state, dict) or set(state) != known:
-            raise InvalidInputError(
-                f"state needs exactly the entries {sorted(known)}, as get_state() returns them"
-            )
-        arrays = {name: finite_array(f"state[{name!r}]", state[name], size) for name, size in sizes.items()}
-        parameters = self._parameters_in(arrays["current_ned"])
-        self.np_random.bit_generator.state = copy.deepcopy(state["random"])
-        self._aim, self._aim_numbers = unpack(aim_template, arrays["aim"]), arrays["aim"]
-        self._parameters, self._numbers = parameters, pack(parameters)
-        self._state, self._memory = arrays["state"], arrays["memory"]
-        self._action, self._measures = arrays["action"], arrays["measures"]
-        self._observation = arrays["observation"].astype(np.float32)
-        self._episode_current = arrays["current_ned"]
-        self._periods = int(state["periods"])
+        if not isinstance(state, dict) or "random" not in state:
+            raise InvalidInputError("the state is not what get_state() returned: it has no entry 'random'")
+        template = self._new_episode(self._base_parameters, self.new_aim({}), AT_REST, self.current_ned)
+        episode = template.restored({name: value for name, value in state.items() if name != "random"})
+        random = np.random.default_rng()
+        try:
+            random.bit_generator.state = copy.deepcopy(state["random"])
+        except (TypeError, ValueError, KeyError) as error:
+            raise InvalidInputError(f"state['random'] is not a generator's state: {error}") from error
+        self.np_random = random
+        self._episode = episode
+        self._parameters = self._parameters_in(episode.current_ned)
         self._view.begin(self)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -316,14 +280,14 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
 
     def snapshot(self) -> Snapshot:
         """Return what a viewer draws now."""
-        motion = self.motion
-        goal = self.goal_pose(self._aim)
+        episode, motion = self._running("snapshot"), self.motion
+        goal = self.goal_pose(unpack(self.new_aim({}), episode.aim))
         return Snapshot(
             time=self.time,
             position_ned=np.array(motion.position_ned),
             quaternion_body_to_ned=np.array(motion.attitude),
-            wrench_body=self._action * self.vehicle.wrench_limits,
-            current_ned=self._episode_current.copy(),
+            wrench_body=episode.action * self.vehicle.wrench_limits,
+            current_ned=episode.current_ned,
             goal_position_ned=None if goal is None else np.array(goal[0]),
             goal_quaternion_body_to_ned=None if goal is None else np.array(goal[1]),
         )
@@ -339,17 +303,27 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             structure_type(self.new_memory()),
         )
 
-    def _clear(self) -> None:
-        """Set up the buffers of an episode that has not begun."""
-        self._aim: Any = None
-        self._parameters: StepParameters = self._base_parameters
-        self._state = pack(AT_REST)
-        self._memory = pack(self.new_memory())
-        self._action = np.zeros(6)
-        self._observation = np.zeros(self.observation_space.shape, dtype=np.float32)  # type: ignore[arg-type]
-        self._measures = np.zeros(len(self.task.measure_names))
-        self._periods = 0
-        self._episode_current = self.current_ned.copy()
+    def _running(self, what: str) -> Episode:
+        if self._episode is None:
+            raise ResetNeeded(f"{what} was asked for before reset(); call reset() first")
+        return self._episode
+
+    def _new_episode(
+        self, parameters: StepParameters, aim: Any, state: BodyState, current: NDArray[np.float64]
+    ) -> Episode:
+        """Return an episode at its start, observed by the same formulas that run compiled."""
+        motion, memory = self._motion(parameters, state), self.new_memory()
+        verdict = self.task.judge(aim, motion, (0.0,) * 6)
+        return Episode(
+            parameters=pack(parameters),
+            aim=pack(aim),
+            state=pack(state),
+            memory=pack(memory),
+            action=np.zeros(6),
+            observation=pack(self.task.observe(aim, memory, motion)).astype(np.float32),
+            measures=pack(verdict.measures),
+            current_ned=np.array(current),
+        )
 
     def _command(self, action: Action) -> NDArray[np.float64]:
         """Return the saturated action of all six axes."""
@@ -363,14 +337,10 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         command[self._axes] = given
         return np.minimum(np.maximum(command, -1.0), 1.0) if abs(command).max() > 1.0 else command
 
-    def _look(self, motion: Motion) -> None:
-        """Write the observation of a motion, by the same formulas that run compiled."""
-        memory = unpack(self.new_memory(), self._memory)
-        self._observation[:] = list(flatten(self.task.observe(self._aim, memory, motion)))
-
     def _info(self) -> dict[str, Any]:
-        measures = dict(zip(self.task.measure_names, self._measures.tolist(), strict=True))
-        return {**measures, "is_success": self.succeeds(measures)}
+        numbers = self._running("info").measures.tolist()
+        measures = dict(zip(self.task.measure_names, numbers, strict=True))
+        return measures | {"is_success": self.succeeds(measures)}
 
     def _integration(self, status: int, completed: int, residual_squared: float) -> dict[str, Any]:
         """Say why the integrator refused."""
@@ -398,38 +368,16 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         direction = self.np_random.uniform(-np.pi, np.pi)
         return np.array([speed * np.cos(direction), speed * np.sin(direction), 0.0])
 
-    def _checked(self, options: dict[str, Any] | None) -> dict[str, Any]:
+    def _checked(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
         """Return reset's options as arrays."""
-        if options is None:
-            return {}
-        unknown = sorted(set(options) - set(START_OPTIONS))
-        if unknown:
-            raise InvalidInputError(f"options has unknown keys {unknown}; it takes {list(START_OPTIONS)}")
-        checked: dict[str, Any] = {}
-        for name, value in options.items():
-            label = f"options[{name!r}]"
-            if name.endswith("quaternion"):
-                checked[name] = unit_quaternion(label, value)
-            else:
-                checked[name] = finite_array(label, value, 6 if name == "velocity" else 3)
-        if "current" in checked and checked["current"].any() and not self._base_parameters.water:
+        chosen = checked_options(options)
+        current = chosen.get("current")
+        if current is not None and current.any() and not self._base_parameters.water:
             raise InvalidInputError(
-                f"options['current'] = {checked['current'].tolist()}, but the environment was made without a "
-                "current; make it with current=<largest speed>"
+                f"options['current'] = {current.tolist()}, but the environment was made without a current; make "
+                "it with current=<largest speed>"
             )
-        return checked
+        return chosen
 
 
 _NOT_CARRIED = ("_compiled", "_motion", "_view")
-
-
-def _current(current: float | Sequence[float]) -> tuple[float, NDArray[np.float64]]:
-    """Return the largest drawn speed and the fixed current; one of them is zero."""
-    if np.ndim(current) == 0:
-        speed = finite_number("current", current)
-        if speed < 0.0:
-            raise InvalidInputError(
-                f"current = {speed:g} m/s; give a speed of 0 or more, or three components"
-            )
-        return speed, np.zeros(3)
-    return 0.0, finite_array("current", current, 3)  # type: ignore[arg-type]

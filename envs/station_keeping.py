@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.checks import finite_array, finite_number, unit_quaternion
-from dq_marine.envs.marine_env import MarineEnv, Start
+from dq_marine.envs.marine_env import MarineEnv
+from dq_marine.envs.start import Start
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.body import Motion
 from dq_marine.kernel.quaternion import (

@@ -161,7 +161,8 @@ def compile_function(function: Callable[..., Any], layout: str) -> Callable[...,
         make_compilable(part)
     compiled = numba.njit(error_model="numpy", nogil=True)(function)
     if _writable(cache_directory()):
-        files = frozenset(inspect.getsourcefile(part) or name_of(part) for part in (function, *used))
+        parts: list[Callable[..., Any]] = [function, *used]
+        files = frozenset(inspect.getsourcefile(part) or name_of(part) for part in parts)
         cache = _CompositionCache(function, f"{name_of(function)}|{layout}", source_fingerprint(files))
         compiled._cache = cache
     return compiled

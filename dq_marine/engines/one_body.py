@@ -131,7 +131,7 @@ class OneBody:
     def _admissible_step(self, wrench: NDArray[np.float64], steps: int) -> float | None:
         """Return the largest h/2^k that takes the body through the refused time, if any is found."""
         advance = make_advance(self._composition)
-        force = from_fossen(tuple(wrench.tolist()))  # type: ignore[arg-type]
+        force = from_fossen(tuple(wrench.tolist()))
         fraction = 0.5
         while fraction >= SMALLEST_FRACTION:
             parameters = self._parameters_at(self.step_size * fraction)
@@ -147,7 +147,7 @@ class OneBody:
     @property
     def state(self) -> BodyState:
         """Pose and momentum as the kernel has them."""
-        return unpack(AT_REST, self._state)  # type: ignore[no-any-return]
+        return unpack(AT_REST, self._state)
 
     @property
     def pose_body_to_ned(self) -> NDArray[np.float64]:

@@ -158,13 +158,13 @@ class Vehicle(Table):
         inertia = np.array(self.rigid_body.inertia)
         if self.rigid_body.inertia_about == "center_of_mass":
             inertia = inertia - mass * s @ s
-        return np.block([[mass * np.eye(3), -mass * s], [mass * s, inertia]])
+        return np.array(np.block([[mass * np.eye(3), -mass * s], [mass * s, inertia]]))
 
     @property
     def mass_matrix(self) -> NDArray[np.float64]:
         """M = M_RB + M_A, shape (6, 6)."""
         added = np.array(self.added_mass)
-        return self.rigid_body_matrix + 0.5 * (added + added.T)
+        return np.asarray(self.rigid_body_matrix + 0.5 * (added + added.T))
 
     @property
     def linear_damping(self) -> NDArray[np.float64]:

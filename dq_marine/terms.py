@@ -1,0 +1,141 @@
+"""From matrices in Fossen's order to the kernel's functions and tuples, leaving out what is zero."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.kernel.damping import DiagonalDamping, FullDamping
+from dq_marine.kernel.inertia import Inertia
+from dq_marine.kernel.kick import (
+    Kick,
+    LinearKick,
+    QuadraticKick,
+    UndampedKick,
+    diagonal_quadratic_kick,
+    full_quadratic_kick,
+    linear_kick,
+    undamped_kick,
+)
+from dq_marine.kernel.matrix3 import Matrix3
+from dq_marine.kernel.restoring import NetWeight, RightingMoment, net_weight, righting_moment
+from dq_marine.kernel.spatial import Matrix6, Spatial
+from dq_marine.kernel.step import PoseForce
+from dq_marine.kernel.vector3 import Vector3
+
+Array = NDArray[np.float64]
+
+
+class ForceTerm(NamedTuple):
+    """A pose-dependent force that a scene has: what it is called, its function and its parameters."""
+
+    name: str
+    function: PoseForce
+    parameters: Any
+
+
+def vector3(a: NDArray[Any]) -> Vector3:
+    """Return an array of shape (3,) as a kernel vector."""
+    x, y, z = a.tolist()
+    return (x, y, z)
+
+
+def spatial(a: Array) -> Spatial:
+    """Return a vector of shape (6,) in Fossen's order as a kernel pair, angular first."""
+    return Spatial(vector3(a[3:]), vector3(a[:3]))
+
+
+def angular_first(m: Array) -> Array:
+    """Reorder a matrix of shape (6, 6) from Fossen's order to angular first; its own inverse."""
+    order = [3, 4, 5, 0, 1, 2]
+    return m[np.ix_(order, order)]
+
+
+def matrix3(m: NDArray[Any]) -> Matrix3:
+    """Return an array of shape (3, 3) as a kernel matrix."""
+    a, b, c, d, e, f, g, h, i = m.ravel().tolist()
+    return (a, b, c, d, e, f, g, h, i)
+
+
+def matrix6(m: NDArray[Any]) -> Matrix6:
+    """Return an angular-first array of shape (6, 6) as kernel blocks."""
+    return Matrix6(matrix3(m[:3, :3]), matrix3(m[:3, 3:]), matrix3(m[3:, :3]), matrix3(m[3:, 3:]))
+
+
+def inertia_term(mass_matrix: Array) -> Inertia:
+    """Return the kernel's inertia of a symmetric positive definite M in Fossen's order, shape (6, 6)."""
+    m = angular_first(mass_matrix)
+    inverse = np.linalg.inv(m)
+    return Inertia(matrix6(m), matrix6(0.5 * (inverse + inverse.T)), matrix3(np.linalg.inv(m[3:, 3:])))
+
+
+def restoring_terms(excess_weight: float, arm: Array) -> tuple[ForceTerm, ...]:
+    """Return the restoring forces that are present.
+
+    Args:
+        excess_weight: W - B [N].
+        arm: W r_G - B r_B [N m], shape (3,).
+    """
+    terms: list[ForceTerm] = []
+    if excess_weight != 0.0:
+        terms.append(ForceTerm("net weight", net_weight, NetWeight(excess_weight)))
+    if arm.any():
+        terms.append(ForceTerm("righting moment", righting_moment, RightingMoment(vector3(arm))))
+    return tuple(terms)
+
+
+def nested_parameters(terms: tuple[ForceTerm, ...]) -> Any:
+    """Return the terms' parameters as the step wants them: (first, (second, (..., ())))."""
+    nested: Any = ()
+    for term in reversed(terms):
+        nested = (term.parameters, nested)
+    return nested
+
+
+class DampingTerm(NamedTuple):
+    """Linear damping matrix (6, 6) and quadratic coefficients (6,) in Fossen's order, with the M they act on."""
+
+    linear: Array
+    quadratic: Array
+    mass_matrix: Array
+
+    @property
+    def name(self) -> str:
+        """What the kick computes; empty without damping."""
+        if self.quadratic.any():
+            return f"{'diagonal' if self._is_diagonal else 'full'} linear and quadratic damping"
+        return "linear damping" if self.linear.any() else ""
+
+    @property
+    def kick(self) -> Kick:
+        """The cheapest kick that has all of this damping."""
+        if self.quadratic.any():
+            return diagonal_quadratic_kick if self._is_diagonal else full_quadratic_kick
+        return linear_kick if self.linear.any() else undamped_kick
+
+    def kick_parameters(self, duration: float) -> UndampedKick | LinearKick | QuadraticKick:
+        """Return the parameters of `kick` over a duration [s]."""
+        if self.quadratic.any():
+            coefficients = spatial(self.quadratic)
+            if self._is_diagonal:
+                return QuadraticKick(
+                    duration, DiagonalDamping(spatial(np.diag(self.linear).copy()), coefficients)
+                )
+            return QuadraticKick(duration, FullDamping(matrix6(angular_first(self.linear)), coefficients))
+        return self._linear_kick(duration) if self.linear.any() else UndampedKick(duration)
+
+    @property
+    def _is_diagonal(self) -> bool:
+        return not (self.linear - np.diag(np.diag(self.linear))).any()
+
+    def _linear_kick(self, h: float) -> LinearKick:
+        """Prepare (K2)-(K3) of `kernel.kick` for a constant D.
+
+        With x = D M^-1: mu' = mu + M dchi = mu + h (1 + h x + h^2/2 x^2)^-1 (1 + h/2 x) (F - x mu).
+        """
+        x = angular_first(self.linear) @ np.linalg.inv(angular_first(self.mass_matrix))
+        one = np.eye(6)
+        forcing = h * np.linalg.solve(one + h * x + 0.5 * h * h * x @ x, one + 0.5 * h * x)
+        return LinearKick(matrix6(one - forcing @ x), matrix6(forcing))

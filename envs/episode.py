@@ -1,0 +1,69 @@
+"""All that the future of an episode depends on, apart from the random generator."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.checks import finite_array
+from dq_marine.engines.one_body import AT_REST
+from dq_marine.engines.packing import unpack
+from dq_marine.errors import InvalidInputError
+from dq_marine.kernel.body import BodyState
+
+
+@dataclass
+class Episode:
+    """The arrays that a compiled control period reads and changes.
+
+    Attributes:
+        parameters: of the step, packed.
+        aim: the task's parameters, packed.
+        state: pose and momentum, shape (14,).
+        memory: the task's memory, packed.
+        action: of the last control period, six axes, normalised.
+        observation: at its end.
+        measures: at its end, as the task names them.
+        current_ned: of the water [m/s], shape (3,).
+        periods: control periods since reset.
+    """
+
+    parameters: NDArray[np.float64]
+    aim: NDArray[np.float64]
+    state: NDArray[np.float64]
+    memory: NDArray[np.float64]
+    action: NDArray[np.float64]
+    observation: NDArray[np.float32]
+    measures: NDArray[np.float64]
+    current_ned: NDArray[np.float64]
+    periods: int = 0
+
+    @property
+    def body(self) -> BodyState:
+        """Pose and momentum as the kernel has them."""
+        return unpack(AT_REST, self.state)  # type: ignore[no-any-return]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return copies of everything."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: value if name == "periods" else value.copy() for name, value in values.items()}
+
+    def restored(self, saved: dict[str, Any]) -> Episode:
+        """Return the episode saved by `to_dict`, whose arrays must have the sizes of this one's.
+
+        Raises:
+            InvalidInputError: an entry is missing, unknown, of another size or not finite.
+        """
+        own = self.to_dict()
+        if set(saved) != set(own):
+            raise InvalidInputError(f"the state has entries {sorted(saved)}; it needs {sorted(own)}")
+        periods = int(saved["periods"])
+        arrays = {
+            name: finite_array(f"state[{name!r}]", saved[name], value.size).astype(value.dtype)
+            for name, value in own.items()
+            if name != "periods"
+        }
+        return Episode(**arrays, periods=periods)
