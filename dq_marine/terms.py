@@ -133,9 +133,9 @@ class DampingTerm(NamedTuple):
     def _linear_kick(self, h: float) -> LinearKick:
         """Prepare (K2)-(K3) of `kernel.kick` for a constant D.
 
-        With x = D M^-1: mu' = mu + M dchi = mu + h (1 + h x + h^2/2 x^2)^-1 (1 + h/2 x) (F - x mu).
+        With x = D M^-1 they read mu' = P mu + Q F, P = (1 + h x + (h x)^2/2)^-1 and Q = h P (1 + h x/2).
         """
-        x = angular_first(self.linear) @ np.linalg.inv(angular_first(self.mass_matrix))
+        hx = h * angular_first(self.linear) @ np.linalg.inv(angular_first(self.mass_matrix))
         one = np.eye(6)
-        forcing = h * np.linalg.solve(one + h * x + 0.5 * h * h * x @ x, one + 0.5 * h * x)
-        return LinearKick(matrix6(one - forcing @ x), matrix6(forcing))
+        propagator = np.linalg.inv(one + hx + 0.5 * hx @ hx)
+        return LinearKick(matrix6(propagator), matrix6(h * propagator @ (one + 0.5 * hx)))

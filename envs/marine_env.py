@@ -326,7 +326,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         )
 
     def _command(self, action: Action) -> NDArray[np.float64]:
-        """Return the saturated action of all six axes."""
+        """Return the action of all six axes, not saturated yet: the compiled code does that."""
         try:
             given = np.asarray(action, dtype=np.float64)
         except (TypeError, ValueError) as error:
@@ -335,7 +335,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             raise InvalidInputError(f"action has shape {given.shape}; give shape {self.action_space.shape}")
         command = np.zeros(6)
         command[self._axes] = given
-        return np.minimum(np.maximum(command, -1.0), 1.0) if abs(command).max() > 1.0 else command
+        return command
 
     def _info(self) -> dict[str, Any]:
         numbers = self._running("info").measures.tolist()

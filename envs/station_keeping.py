@@ -37,6 +37,9 @@ SPEED_BOUND = 10.0
 INTEGRAL_BOUND = 20.0
 """The integral of the position error is held within this along each NED axis [m s]."""
 
+LARGEST_WORKSPACE = 1e4
+"""Largest radius of the workspace [m]."""
+
 SUCCESS_POSITION = 0.1
 """On station: distance to the goal [m] below which, with `SUCCESS_ATTITUDE`, `is_success` is True."""
 
@@ -249,6 +252,11 @@ class StationKeepingEnv(MarineEnv):
         self.goal_position_ned = finite_array("goal_position", goal_position, 3)
         self.start_radius = finite_number("start_radius", start_radius)
         self.workspace_radius = finite_number("workspace_radius", workspace_radius, above=0.0)
+        if self.workspace_radius > LARGEST_WORKSPACE:
+            raise InvalidInputError(
+                f"workspace_radius = {self.workspace_radius:g} m; give at most {LARGEST_WORKSPACE:g} m, within which "
+                "float32 observations resolve the goal"
+            )
         if not 0.0 <= self.start_radius < self.workspace_radius:
             raise InvalidInputError(
                 f"start_radius = {self.start_radius:g} m; give 0 or more and less than the workspace_radius, "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -28,9 +29,10 @@ def compiled_control_period(
     """Compile one control period on arrays.
 
     The compiled function takes (parameters, aim, state, memory, action, observation, measures, steps), all
-    arrays float64 but the observation, float32. If the status it returns is ACCEPTED it has changed state,
-    memory, observation and measures; else none of them, with status ACTION_NOT_FINITE for an action with NaN or
-    infinity. It returns (status, completed, iterations, residual_squared, reward, terminated).
+    arrays float64 but the observation, float32. It saturates the action at -1 and 1, in place, or returns the
+    status ACTION_NOT_FINITE for a NaN or an infinity. If the status is ACCEPTED it has changed state, memory,
+    observation and measures; else none of them. It returns (status, completed, iterations, residual_squared,
+    reward, terminated).
     """
     control_period = make_control_period(composition, task)
     load_parameters = make_load(step_layout)
@@ -48,10 +50,11 @@ def compiled_control_period(
         measures: Any,
         steps: int,
     ) -> Any:
+        for axis in range(6):
+            if not math.isfinite(action[axis]):
+                return ACTION_NOT_FINITE, 0, 0, 0.0, 0.0, 0.0
+            action[axis] = max(-1.0, min(1.0, action[axis]))
         command = (action[0], action[1], action[2], action[3], action[4], action[5])
-        total = command[0] + command[1] + command[2] + command[3] + command[4] + command[5]
-        if total - total != 0.0:
-            return ACTION_NOT_FINITE, 0, 0, 0.0, 0.0, 0.0
         outcome = control_period(
             load_parameters(parameters), load_aim(aim), load_state(state), load_memory(memory), command, steps
         )

@@ -12,16 +12,18 @@ class DriftReport(NamedTuple):
 
     Attributes:
         relative_residual_squared: |residual|^2 over the sum of the squares of the equation's terms.
-        determinant: that of the last Jacobian; positive on the branch connected to rest.
+        on_rest_branch: whether the solution is on the branch connected to rest. Along it the Jacobian starts
+            positive definite and no real eigenvalue has crossed zero; the sign of the determinant alone would miss
+            two that cross together, as they do for an axisymmetric body.
         iterations: Newton iterations taken.
     """
 
     relative_residual_squared: float
-    determinant: float
+    on_rest_branch: bool
     iterations: int
 
 
 def drift_accepted(report: DriftReport) -> bool:
     """Whether the equation is met, on the branch connected to rest; False for NaN."""
     met = report.relative_residual_squared <= ACCEPTED_RESIDUAL * ACCEPTED_RESIDUAL
-    return met and report.determinant > 0.0
+    return met and report.on_rest_branch

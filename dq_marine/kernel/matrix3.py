@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TypeAlias
 
 from dq_marine.kernel.vector3 import Vector3
@@ -115,6 +116,34 @@ def determinant(a: Matrix3) -> float:
         + a[1] * (a[5] * a[6] - a[3] * a[8])
         + a[2] * (a[3] * a[7] - a[4] * a[6])
     )
+
+
+def trace(a: Matrix3) -> float:
+    """Return the sum of the diagonal."""
+    return a[0] + a[4] + a[8]
+
+
+def sum_of_principal_minors(a: Matrix3) -> float:
+    """Return the second invariant, the sum of the eigenvalues' products in pairs."""
+    return trace(adjugate(a))
+
+
+def has_negative_real_eigenvalue(a: Matrix3) -> bool:
+    """Whether a real eigenvalue of a is zero or negative; True for NaN.
+
+    Those are the roots -mu, mu >= 0, of the characteristic polynomial: f(mu) = mu^3 + c2 mu^2 + c1 mu + c0 with
+    the invariants as coefficients. f(0) = c0 must be positive, and so must f where it is smallest on mu > 0.
+    """
+    c2, c1, c0 = trace(a), sum_of_principal_minors(a), determinant(a)
+    if not c0 > 0.0:
+        return True
+    discriminant = c2 * c2 - 3.0 * c1
+    if discriminant <= 0.0:
+        return False  # f rises everywhere
+    lowest = (math.sqrt(discriminant) - c2) / 3.0
+    if lowest <= 0.0:
+        return False  # f rises on mu > 0
+    return not ((lowest + c2) * lowest + c1) * lowest + c0 > 0.0
 
 
 def invert(a: Matrix3) -> Matrix3:

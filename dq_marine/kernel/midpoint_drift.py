@@ -27,7 +27,7 @@ from dq_marine.kernel.dual_quaternion import DualQuaternion, dual_multiply, pose
 from dq_marine.kernel.inertia import Inertia, twist_from_momentum
 from dq_marine.kernel.matrix3 import (
     Matrix3,
-    determinant,
+    has_negative_real_eigenvalue,
     invert,
     matrix_from_columns,
     transform,
@@ -129,11 +129,11 @@ def solve_drift(
     `MAX_ITERATIONS`; whether the outcome is acceptable is `drift_accepted`'s to say.
     """
     equation = drift_equation(inertia, guess, a, b)
-    jacobian_determinant = 0.0
+    on_rest_branch = False
     iterations = 0
     for _ in range(MAX_ITERATIONS):
         jacobian = drift_jacobian(inertia, equation)
-        jacobian_determinant = determinant(jacobian)
+        on_rest_branch = not has_negative_real_eigenvalue(jacobian)
         step = transform(invert(jacobian), equation.residual)
         before = equation.relative_residual_squared
         equation = drift_equation(inertia, subtract(equation.t, step), a, b)
@@ -143,7 +143,7 @@ def solve_drift(
             break
         if before <= ACCEPTED_RESIDUAL**2 and after >= 0.25 * before:
             break
-    report = DriftReport(equation.relative_residual_squared, jacobian_determinant, iterations)
+    report = DriftReport(equation.relative_residual_squared, on_rest_branch, iterations)
     return equation, report
 
 

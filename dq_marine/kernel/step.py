@@ -131,7 +131,7 @@ def make_advance(
             iterations += report.iterations
             worst = max(worst, report.relative_residual_squared)
             if not drift_accepted(report):
-                status = WRONG_BRANCH if report.determinant <= 0.0 else NOT_CONVERGED
+                status = NOT_CONVERGED if report.on_rest_branch else WRONG_BRANCH
                 return StepOutcome(state, status, completed, iterations, report.relative_residual_squared)
             pose = carry(parameters.water, parameters.h, pose)
             force = add_forces(parameters.forces, pose, wrench)

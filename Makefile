@@ -1,0 +1,40 @@
+# Two commands do all on a fresh machine with Python 3.11 or newer: `make demo` and `make test`.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+
+.PHONY: demo test lint clean help
+
+help:  ## list the commands
+	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/'
+
+demo: $(VENV)/.demo  ## hold a BlueROV2 Heavy in a current; write a 3-D replay and a plot
+	@$(BIN)/dq-marine demo --out demo
+
+test: $(VENV)/.test  ## run every test
+	@$(BIN)/python -m pytest
+
+lint: $(VENV)/.test  ## check style, types and the direction of imports
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+	@$(BIN)/mypy
+	@$(BIN)/lint-imports
+
+clean:  ## remove the virtual environment and what the commands wrote
+	rm -rf $(VENV) build dist demo *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+
+$(BIN)/python:
+	@echo "dq-marine: making a virtual environment in $(VENV)"
+	@$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.demo: pyproject.toml constraints.txt | $(BIN)/python
+	@echo "dq-marine: installing the simulator and its viewer (about a minute)"
+	@$(INSTALL) --editable ".[render]"
+	@touch $@
+
+$(VENV)/.test: pyproject.toml constraints.txt | $(BIN)/python
+	@echo "dq-marine: installing everything, torch included (one to three minutes)"
+	@$(INSTALL) --editable ".[render,agents,dev]"
+	@touch $@ $(VENV)/.demo

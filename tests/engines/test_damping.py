@@ -1,0 +1,108 @@
+"""Damping: terminal velocity, stiffness, agreement with closed forms."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from support.bodies import make_body, random_damping, random_inertia
+
+from dq_marine.kernel.body import kinetic_energy
+from dq_marine.terms import DampingTerm, inertia_term, spatial
+
+M = np.diag([19.86, 20.0, 30.0, 0.4, 0.4, 0.6])
+LINEAR = np.diag([13.7, 1.0, 33.0, 0.1, 0.8, 0.1])
+QUADRATIC = np.array([141.0, 217.0, 190.0, 1.2, 0.5, 1.5])
+SURGE = np.array([40.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+
+
+def test_run_up_to_terminal_velocity():
+    """M = 19.86, linear 13.7, quadratic 141, 40 N from rest."""
+    body = make_body(M, 0.001, linear=LINEAR, quadratic=QUADRATIC)
+    body.step(SURGE, 500)
+    assert body.velocity_body[0] == pytest.approx(0.46661947845568, abs=1e-6)
+    body.step(SURGE, 500)
+    assert body.velocity_body[0] == pytest.approx(0.48580458347608, abs=1e-6)
+
+
+@pytest.mark.parametrize("h", [0.01, 0.1, 1.0, 10.0, 1000.0])
+def test_terminal_velocity_is_exact_at_any_step(h):
+    # Equal masses along all axes: no Munk moment, whose h v limit the largest steps would break.
+    m = np.diag([19.86, 19.86, 19.86, 0.4, 0.4, 0.6])
+    body = make_body(m, h, linear=LINEAR, quadratic=QUADRATIC)
+    body.step(SURGE, 20_000)
+    assert body.velocity_body[0] == pytest.approx(0.4862530975891999, rel=1e-12)
+
+
+def test_pure_quadratic_run_up():
+    """Tanh law: V = 0.53262, v(0.5) = 0.50889, x(0.5) = 0.17186."""
+    body = make_body(M, 0.0005, quadratic=QUADRATIC)
+    body.step(SURGE, 1000)
+    assert body.velocity_body[0] == pytest.approx(0.5088883776189, abs=1e-6)
+    assert body.position_ned[0] == pytest.approx(0.1718551619782, abs=1e-6)
+
+
+@pytest.mark.parametrize("stiffness", 10.0 ** np.arange(-2, 7))
+def test_linear_damping_decays_at_any_stiffness(stiffness):
+    """L-stable: one step multiplies by 1/(1 + z + z^2/2) or less for z = h lambda, and never rings."""
+    h = 0.1
+    body = make_body(np.eye(6), h, linear=stiffness / h * np.eye(6))
+    body.reset(velocity_body=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    before = 1.0
+    for _ in range(5):
+        body.step()
+        now = body.velocity_body[0]
+        assert 0.0 <= now < before
+        before = now
+    z = stiffness / 2.0  # two half kicks a step
+    assert now == pytest.approx((1.0 + z + 0.5 * z * z) ** -10, rel=1e-9, abs=1e-300)
+
+
+@pytest.mark.parametrize("speed", [1.0, 20.0, 1000.0])
+def test_quadratic_damping_at_high_speed(speed):
+    """v(t) = v0/(1 + c v0 t/m), from far beyond what an explicit step survives."""
+    h, steps = 0.02, 50
+    m = np.diag([19.86, 19.86, 19.86, 0.4, 0.4, 0.6])  # no Munk moment: see above
+    body = make_body(m, h, quadratic=QUADRATIC)
+    body.reset(velocity_body=(speed, 0.0, 0.0, 0.0, 0.0, 0.0))
+    body.step(steps=steps)
+    exact = speed / (1.0 + QUADRATIC[0] * speed * h * steps / m[0, 0])
+    assert body.velocity_body[0] == pytest.approx(exact, rel=0.05)
+
+
+@settings(max_examples=100, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), magnitude=st.floats(-3.0, 6.0))
+def test_a_kick_without_a_wrench_only_takes_energy(seed, magnitude):
+    """Whatever the damping matrix, gyroscopic parts included."""
+    rng = np.random.default_rng(seed)
+    m = random_inertia(rng)
+    size = 10.0**magnitude
+    damping = DampingTerm(size * random_damping(rng), size * rng.uniform(size=6), m)
+    inertia, momentum = inertia_term(m), spatial(rng.normal(size=6))
+    energy = kinetic_energy(inertia, momentum)
+    for _ in range(5):
+        momentum = damping.kick(damping.kick_parameters(0.05), inertia, momentum, spatial(np.zeros(6)))
+        assert kinetic_energy(inertia, momentum) <= energy * (1.0 + 1e-12)
+        energy = kinetic_energy(inertia, momentum)
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_the_three_damped_kicks_agree(seed):
+    """A constant D through the prepared kick, and through the quadratic ones with vanishing coefficients."""
+    rng = np.random.default_rng(seed)
+    m, velocity, wrench = random_inertia(rng), rng.normal(size=6), rng.normal(size=6)
+    diagonal = np.diag(rng.uniform(0.1, 2.0, 6))
+    nudged = diagonal.copy()
+    nudged[0, 1] = 1e-300  # enough to be called full
+    bodies = [
+        make_body(m, 0.05, linear=diagonal),
+        make_body(m, 0.05, linear=diagonal, quadratic=np.full(6, 1e-300)),
+        make_body(m, 0.05, linear=nudged, quadratic=np.full(6, 1e-300)),
+    ]
+    for body in bodies:
+        body.reset(velocity_body=velocity)
+        body.step(wrench, 20)
+    first = bodies[0]
+    for other in bodies[1:]:
+        assert np.allclose(other.velocity_body, first.velocity_body, rtol=0, atol=1e-12)
+        assert np.allclose(other.position_ned, first.position_ned, rtol=0, atol=1e-12)

@@ -1,0 +1,139 @@
+"""The stepper's doors: states, refusals, bad input; current and constant water."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from support.bodies import make_body, random_damping, random_inertia, random_quaternion
+
+from dq_marine.errors import InvalidInputError, StepNotSolvableError
+from dq_marine.scene import Scene
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+@settings(max_examples=20, deadline=None)
+@given(seeds)
+def test_reset_round_trip(seed):
+    rng = np.random.default_rng(seed)
+    body = make_body(random_inertia(rng), 0.02, current=(0.5, -0.2, 0.1))
+    position, q, velocity = rng.normal(size=3), random_quaternion(rng), rng.normal(size=6)
+    body.reset(position, q, velocity)
+    assert np.allclose(body.position_ned, position, atol=1e-14)
+    assert np.allclose(body.quaternion_body_to_ned, q, atol=1e-15)
+    assert np.allclose(body.velocity_body, velocity, atol=1e-12)
+    assert body.time == 0.0
+
+
+@settings(max_examples=20, deadline=None)
+@given(seeds)
+def test_a_current_is_exactly_a_moving_frame(seed):
+    """In a current the body does what it does in still water, seen from a frame that moves with the water."""
+    rng = np.random.default_rng(seed)
+    m, damping, current = random_inertia(rng), random_damping(rng), rng.normal(size=3)
+    q, relative = random_quaternion(rng), rng.normal(size=6)
+    still = make_body(m, 0.02, linear=damping, arm=(0.0, 0.0, 2.0))
+    moving = make_body(m, 0.02, linear=damping, arm=(0.0, 0.0, 2.0), current=current)
+    still.reset((0.0, 0.0, 0.0), q, relative)
+    moving.reset((0.0, 0.0, 0.0), q, moving.velocity_body * 0.0)
+    water = moving.velocity_body - moving.relative_velocity_body
+    moving.reset((0.0, 0.0, 0.0), q, relative + water)
+    wrench = rng.normal(size=6)
+    still.step(wrench, 500)
+    moving.step(wrench, 500)
+    assert np.allclose(moving.position_ned, still.position_ned + 10.0 * current, atol=1e-11)
+    assert np.allclose(moving.relative_velocity_body, still.velocity_body, atol=1e-12)
+
+
+def test_a_floating_body_drifts_with_the_water():
+    body = make_body(random_inertia(np.random.default_rng(0)), 0.1, current=(0.3, 0.4, 0.0))
+    body.reset(velocity_body=(0.3, 0.4, 0.0, 0.0, 0.0, 0.0))
+    body.step(steps=1000)
+    assert np.allclose(body.position_ned, (30.0, 40.0, 0.0), atol=1e-10)
+
+
+def test_state_round_trip_is_bit_for_bit():
+    scene = Scene(current=(0.2, 0.1, 0.0))
+    body, other = scene.stepper(), scene.stepper()
+    body.reset((1.0, 2.0, 3.0), (0.6, 0.0, 0.0, 0.8), (0.1,) * 6)
+    body.step((10.0, 0.0, 0.0, 0.0, 0.0, 1.0), 13)
+    other.set_state(body.get_state())
+    for stepper in (body, other):
+        stepper.step((5.0, 1.0, 0.0, 0.0, 0.0, -1.0), 29)
+    assert np.array_equal(body.get_state(), other.get_state())
+    assert body.time == pytest.approx(42 * 0.02)
+
+
+def test_scenes_travel_and_steppers_say_why_they_do_not():
+    scene = Scene(current=(0.2, 0.1, 0.0), step=0.01)
+    for twin in (pickle.loads(pickle.dumps(scene)), copy.deepcopy(scene)):
+        assert repr(twin) == repr(scene)
+        one, two = scene.stepper(), twin.stepper()
+        one.step((10.0,) * 6, 5)
+        two.step((10.0,) * 6, 5)
+        assert np.array_equal(one.get_state(), two.get_state())
+    with pytest.raises(TypeError, match="get_state"):
+        pickle.dumps(scene.stepper())
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda b: b.step((np.nan,) * 6), "wrench_body"),
+        (lambda b: b.step((np.inf, 0, 0, 0, 0, 0)), "wrench_body"),
+        (lambda b: b.step((1.0, 2.0)), r"shape \(2,\)"),
+        (lambda b: b.step("forward"), "not numeric"),
+        (lambda b: b.step(steps=0), "steps = 0"),
+        (lambda b: b.step(steps=1.5), "steps = 1.5"),
+        (lambda b: b.reset(quaternion_body_to_ned=(2.0, 0.0, 0.0, 0.0)), "length 2"),
+        (lambda b: b.reset(position_ned=(np.nan, 0.0, 0.0)), "position_ned"),
+        (lambda b: b.set_state(np.zeros(15)), "unit quaternion"),
+        (lambda b: b.set_state(np.zeros(3)), "shape"),
+    ],
+)
+def test_bad_input_is_refused_and_changes_nothing(call, message):
+    body = Scene().stepper()
+    body.step((10.0, 0.0, 0.0, 0.0, 0.0, 1.0), 5)
+    before = body.get_state()
+    with pytest.raises(InvalidInputError, match=message):
+        call(body)
+    assert np.array_equal(body.get_state(), before)
+
+
+def test_a_step_beyond_the_translation_limit_is_refused_by_name():
+    """H v beyond the Munk limit 2/sigma': the discrete equation leaves the branch that starts at rest."""
+    m = np.diag([35.39387824, 60.86052274, 60.86052274, 0.20453077, 2.79541877, 2.79541877])
+    body = make_body(m, 1.0)
+    body.reset(velocity_body=(0.8, 0.0, 0.0, 0.0, 0.0, 0.0))  # h sigma = 1.84
+    body.step()
+    body.reset(velocity_body=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))  # h sigma = 2.30
+    before = body.get_state()
+    with pytest.raises(StepNotSolvableError, match="wrong_branch") as caught:
+        body.step()
+    assert np.array_equal(body.get_state(), before)
+    assert caught.value.step_times_speed == pytest.approx(1.0)
+    assert caught.value.admissible_step == 0.5
+    again = make_body(m, caught.value.admissible_step)
+    again.set_state(before)
+    again.step(steps=2)
+
+
+@settings(max_examples=60, deadline=None)
+@given(seeds, st.floats(-3.0, 300.0))
+def test_never_a_nan(seed, log_size):
+    """Whatever the wrench and velocity: a finite state, or a refusal that changes nothing."""
+    rng = np.random.default_rng(seed)
+    body = make_body(random_inertia(rng), 0.1, quadratic=rng.uniform(size=6), linear=random_damping(rng))
+    body.reset(velocity_body=rng.normal(size=6) * 10.0 ** min(log_size, 6.0))
+    before = body.get_state()
+    try:
+        body.step(rng.normal(size=6) * 10.0**log_size, 3)
+    except StepNotSolvableError as error:
+        assert np.array_equal(body.get_state(), before)
+        assert error.reason in str(error)
+    assert np.isfinite(body.get_state()).all()
+    assert np.isfinite(body.position_ned).all()
+    assert np.isfinite(body.velocity_body).all()

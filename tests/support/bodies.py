@@ -1,0 +1,69 @@
+"""Bodies built straight from matrices, without a vehicle's plausibility."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dq_marine.engines.one_body import OneBody
+from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
+from dq_marine.kernel.midpoint_drift import midpoint_drift
+from dq_marine.kernel.step import Composition, StepParameters
+from dq_marine.terms import DampingTerm, inertia_term, nested_parameters, restoring_terms, vector3
+
+
+def random_inertia(rng, condition=20.0, coupled=True):
+    """A random symmetric positive definite 6x6 M (Fossen's order) with the given condition number."""
+    if not coupled:
+        return np.diag(np.exp(rng.uniform(0.0, np.log(condition), 6)))
+    basis, _ = np.linalg.qr(rng.normal(size=(6, 6)))
+    eigenvalues = np.exp(np.linspace(0.0, np.log(condition), 6))
+    m = basis @ np.diag(eigenvalues) @ basis.T
+    return 0.5 * (m + m.T)
+
+
+def random_damping(rng, scale=1.0):
+    """A random dissipative 6x6 matrix, not symmetric."""
+    a = rng.normal(size=(6, 6))
+    skew = rng.normal(size=(6, 6))
+    return scale * (a @ a.T / 6.0 + 0.5 * np.eye(6) + 0.3 * (skew - skew.T))
+
+
+def random_quaternion(rng):
+    q = rng.normal(size=4)
+    return q / np.linalg.norm(q)
+
+
+def make_body(
+    mass_matrix,
+    step,
+    *,
+    excess_weight=0.0,
+    arm=(0.0, 0.0, 0.0),
+    linear=None,
+    quadratic=None,
+    current=(0.0, 0.0, 0.0),
+):
+    """A `OneBody` with any M, restoring, damping (Fossen's order) and current."""
+    linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)
+    quadratic = np.zeros(6) if quadratic is None else np.asarray(quadratic, dtype=float)
+    damping = DampingTerm(linear, quadratic, np.asarray(mass_matrix, dtype=float))
+    forces = restoring_terms(excess_weight, np.asarray(arm, dtype=float))
+    current = np.asarray(current, dtype=float)
+    composition = Composition(
+        forces=tuple(term.function for term in forces),
+        kick=damping.kick,
+        drift=midpoint_drift,
+        water=MOVING_WATER if current.any() else STILL_WATER,
+    )
+
+    def parameters_at(h):
+        return StepParameters(
+            h=h,
+            inertia=inertia_term(np.asarray(mass_matrix, dtype=float)),
+            forces=nested_parameters(forces),
+            half_kick=damping.kick_parameters(0.5 * h),
+            full_kick=damping.kick_parameters(h),
+            water=UniformCurrent(vector3(current)) if current.any() else (),
+        )
+
+    return OneBody(composition, parameters_at, step)
