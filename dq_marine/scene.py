@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from dq_marine.checks import finite_array, finite_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
-from dq_marine.kernel.midpoint_drift import midpoint_drift
+from dq_marine.kernel.midpoint_drift import midpoint_drift, midpoint_rescue
+from dq_marine.kernel.paper_drift import paper_drift, paper_rescue
 from dq_marine.kernel.step import Composition, StepParameters
 from dq_marine.terms import DampingTerm, ForceTerm, inertia_term, nested_parameters, restoring_terms, vector3
 from dq_marine.vehicles import Vehicle, load_vehicle
@@ -20,8 +21,8 @@ from dq_marine.vehicles import Vehicle, load_vehicle
 if TYPE_CHECKING:
     from dq_marine.engines.one_body import OneBody
 
-DRIFTS = {"midpoint": midpoint_drift}
-"""Schemes by name."""
+DRIFTS = {"midpoint": (midpoint_drift, midpoint_rescue), "paper": (paper_drift, paper_rescue)}
+"""Schemes by name: the drift, and its rescue."""
 
 NEUTRAL_TOLERANCE = 1e-9
 """Net weight over weight, and righting arm over the vehicle's length, below which a term counts as absent."""
@@ -75,10 +76,12 @@ class Scene:
         self._inertia = inertia_term(self.vehicle.mass_matrix)
         names = [*(term.name for term in self._restoring), self._damping.name]
         self.terms = tuple(filter(None, [*names, "current" if self._has_current else ""]))
+        drift, rescue = DRIFTS[scheme]
         self.composition = Composition(
             forces=tuple(term.function for term in self._restoring),
             kick=self._damping.kick,
-            drift=DRIFTS[scheme],
+            drift=drift,
+            rescue=rescue,
             water=MOVING_WATER if self._has_current else STILL_WATER,
         )
 

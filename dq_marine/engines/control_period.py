@@ -31,7 +31,7 @@ def compiled_control_period(
     The compiled function takes (parameters, aim, state, memory, action, observation, measures, steps), all
     arrays float64 but the observation, float32. It saturates the action at -1 and 1, in place, or returns the
     status ACTION_NOT_FINITE for a NaN or an infinity. If the status is ACCEPTED it has changed state, memory,
-    observation and measures; else none of them. It returns (status, completed, iterations, residual_squared,
+    observation and measures; else none of them. It returns (status, completed, rescued, residual_squared,
     reward, terminated).
     """
     control_period = make_control_period(composition, task)
@@ -60,7 +60,7 @@ def compiled_control_period(
         )
         step, verdict = outcome.step, outcome.verdict
         if step.status != ACCEPTED:
-            return step.status, step.completed, step.iterations, step.residual_squared, 0.0, 1.0
+            return step.status, step.completed, step.rescued, step.residual_squared, 0.0, 1.0
         store(state, step.state)
         store(memory, outcome.memory)
         store(observation, outcome.observation)
@@ -68,7 +68,7 @@ def compiled_control_period(
         return (
             step.status,
             step.completed,
-            step.iterations,
+            step.rescued,
             step.residual_squared,
             verdict.reward,
             verdict.terminated,

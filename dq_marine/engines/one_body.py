@@ -51,6 +51,14 @@ class OneBody:
 
     Made by `Scene.stepper`. Time starts at 0; position is in NED, velocity over ground in the body frame and
     in Fossen's order [u, v, w, p, q, r].
+
+    Attributes:
+        step_size: h [s].
+        time: since the last reset [s].
+        parameters: the numbers of the scene, as the kernel has them.
+        steps_taken: since the stepper was made.
+        newton_iterations: of all of them.
+        steps_rescued: of them, those that plain Newton did not solve (see `kernel.drift`).
     """
 
     def __init__(
@@ -68,6 +76,7 @@ class OneBody:
         self._state = pack(AT_REST)
         self.step_size = step
         self.time = 0.0
+        self.steps_taken = self.newton_iterations = self.steps_rescued = 0
 
     def __reduce__(self) -> Any:
         """Refuse to be pickled: a scene makes a new stepper, and `get_state` carries the state over."""
@@ -111,9 +120,12 @@ class OneBody:
         """
         wrench = finite_array("wrench_body", wrench_body, 6)
         count = positive_integer("steps", steps)
-        status, completed, _, residual_squared = self._advance(self._numbers, self._state, wrench, count)
+        status, completed, iterations, rescued, residual_squared = self._advance(self._numbers, self._state, wrench, count)
         if status != ACCEPTED:
             raise self._refusal(status, completed, wrench, residual_squared)
+        self.steps_taken += count
+        self.newton_iterations += iterations
+        self.steps_rescued += rescued
         self.time += count * self.step_size
 
     def _refusal(
@@ -219,7 +231,7 @@ def place_body(
 
 @functools.cache
 def compiled_advance(composition: Composition, layout: types.Type) -> Callable[..., Any]:
-    """Compile (parameters, state, wrench, steps) -> (status, completed, iterations, residual_squared).
+    """Compile (parameters, state, wrench, steps) -> (status, completed, iterations, rescued, residual_squared).
 
     All arrays float64: `parameters` packed from the `StepParameters` of `layout`, `state` (14,) changed in
     place and only if the status is ACCEPTED, `wrench` (6,) in Fossen's order.
@@ -233,6 +245,12 @@ def compiled_advance(composition: Composition, layout: types.Type) -> Callable[.
         outcome = advance(load_parameters(parameters), load_state(state), force, steps)
         if outcome.status == ACCEPTED:
             store(state, outcome.state)
-        return outcome.status, outcome.completed, outcome.iterations, outcome.residual_squared
+        return (
+            outcome.status,
+            outcome.completed,
+            outcome.iterations,
+            outcome.rescued,
+            outcome.residual_squared,
+        )
 
     return compile_function(advance_arrays, str(layout))

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+CONVERGED_RESIDUAL = 1e-14
+"""Relative residual at which the solver is content: round-off."""
+
 ACCEPTED_RESIDUAL = 1e-10
+"""Relative residual up to which a solution may be used."""
+
+DIRECT, DAMPED, CONTINUED, SPLIT = range(4)
+"""How a step was solved: by plain Newton, or by what had to come to its rescue."""
 
 
 class DriftReport(NamedTuple):
@@ -16,11 +23,13 @@ class DriftReport(NamedTuple):
             positive definite and no real eigenvalue has crossed zero; the sign of the determinant alone would miss
             two that cross together, as they do for an axisymmetric body.
         iterations: Newton iterations taken.
+        method: DIRECT, DAMPED, CONTINUED or SPLIT.
     """
 
     relative_residual_squared: float
     on_rest_branch: bool
     iterations: int
+    method: int
 
 
 def drift_accepted(report: DriftReport) -> bool:

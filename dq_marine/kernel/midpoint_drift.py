@@ -22,21 +22,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from dq_marine.kernel.drift_report import ACCEPTED_RESIDUAL, DriftReport
-from dq_marine.kernel.dual_quaternion import DualQuaternion, dual_multiply, pose_renormalise
-from dq_marine.kernel.inertia import Inertia, twist_from_momentum
-from dq_marine.kernel.matrix3 import (
-    Matrix3,
-    has_negative_real_eigenvalue,
-    invert,
-    matrix_from_columns,
-    transform,
-)
-from dq_marine.kernel.spatial import Spatial, spatial_scale
+from dq_marine.kernel.drift import DriftScheme, make_drift, make_robust_drift
+from dq_marine.kernel.dual_quaternion import DualQuaternion
+from dq_marine.kernel.inertia import Inertia
+from dq_marine.kernel.matrix3 import Matrix3, matrix_from_columns, transform
+from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
-
-CONVERGED_RESIDUAL = 1e-14
-MAX_ITERATIONS = 12
 
 
 class DriftEquation(NamedTuple):
@@ -120,33 +111,6 @@ def drift_jacobian(inertia: Inertia, at: DriftEquation) -> Matrix3:
     )
 
 
-def solve_drift(
-    inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3
-) -> tuple[DriftEquation, DriftReport]:
-    """Solve (D5) for t by Newton's method from `guess`.
-
-    Stops when the residual is at round-off, when it has stopped falling below the accepted residual, or after
-    `MAX_ITERATIONS`; whether the outcome is acceptable is `drift_accepted`'s to say.
-    """
-    equation = drift_equation(inertia, guess, a, b)
-    on_rest_branch = False
-    iterations = 0
-    for _ in range(MAX_ITERATIONS):
-        jacobian = drift_jacobian(inertia, equation)
-        on_rest_branch = not has_negative_real_eigenvalue(jacobian)
-        step = transform(invert(jacobian), equation.residual)
-        before = equation.relative_residual_squared
-        equation = drift_equation(inertia, subtract(equation.t, step), a, b)
-        iterations += 1
-        after = equation.relative_residual_squared
-        if after <= CONVERGED_RESIDUAL**2:
-            break
-        if before <= ACCEPTED_RESIDUAL**2 and after >= 0.25 * before:
-            break
-    report = DriftReport(equation.relative_residual_squared, on_rest_branch, iterations)
-    return equation, report
-
-
 def pose_increment(at: DriftEquation) -> DualQuaternion:
     """Return the unit dual quaternion f = r (1 + eps y) r of the step, for pose' = pose f.
 
@@ -172,15 +136,11 @@ def transported_momentum(at: DriftEquation, a: Vector3) -> Spatial:
     return Spatial(turn_half_back(at.t, at.gain, angular), turn_half_back(at.t, at.gain, at.zb))
 
 
-def midpoint_drift(
-    inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
-) -> tuple[DualQuaternion, Spatial, DriftReport]:
-    """Move a body by its own momentum for h seconds.
+def midpoint_guess(angle: Vector3) -> Vector3:
+    """Return t for a small step angle h omega: a quarter of it."""
+    return scale(0.25, angle)
 
-    Returns the pose and momentum afterwards, and the report to be judged by `drift_accepted`.
-    """
-    scaled = spatial_scale(0.5 * h, momentum)
-    guess = scale(0.25 * h, twist_from_momentum(inertia, momentum).angular)
-    at, report = solve_drift(inertia, guess, scaled.angular, scaled.linear)
-    moved = pose_renormalise(dual_multiply(pose, pose_increment(at)))
-    return moved, spatial_scale(2.0 / h, transported_momentum(at, scaled.angular)), report
+
+MIDPOINT = DriftScheme(drift_equation, drift_jacobian, midpoint_guess, pose_increment, transported_momentum)
+midpoint_drift = make_drift(MIDPOINT)
+midpoint_rescue = make_robust_drift(MIDPOINT)

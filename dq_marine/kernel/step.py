@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.kernel.body import BodyState, Motion
 from dq_marine.kernel.current import Water
+from dq_marine.kernel.drift import Drift
 from dq_marine.kernel.drift_report import drift_accepted
 from dq_marine.kernel.dual_quaternion import DualQuaternion, pose_position
 from dq_marine.kernel.inertia import Inertia, twist_from_momentum
@@ -35,12 +36,14 @@ class Composition:
         forces: wrenches that depend on the pose, each (parameters, pose) -> wrench.
         kick: momentum change at frozen pose, (parameters, inertia, momentum, wrench) -> momentum.
         drift: force-free motion, (inertia, h, pose, momentum) -> (pose, momentum, report).
+        rescue: the same for a step that `drift` does not solve.
         water: what moving water does.
     """
 
     forces: tuple[PoseForce, ...]
     kick: Kick
-    drift: Callable[..., Any]
+    drift: Drift
+    rescue: Drift
     water: Water
 
 
@@ -72,6 +75,7 @@ class StepOutcome(NamedTuple):
         status: ACCEPTED, or why the next step was refused.
         completed: number of steps taken.
         iterations: Newton iterations of all of them.
+        rescued: number of steps that plain Newton did not solve and the rescue did.
         residual_squared: largest squared relative residual met.
     """
 
@@ -79,6 +83,7 @@ class StepOutcome(NamedTuple):
     status: int
     completed: int
     iterations: int
+    rescued: int
     residual_squared: float
 
 
@@ -117,7 +122,8 @@ def make_advance(
     outcome's state is the one handed in.
     """
     add_forces = join_forces(composition.forces)
-    kick, drift, carry = composition.kick, composition.drift, composition.water.carry
+    kick, carry = composition.kick, composition.water.carry
+    drift, rescue = composition.drift, composition.rescue
 
     def advance(parameters: StepParameters, state: BodyState, wrench: Spatial, steps: int) -> StepOutcome:
         inertia = parameters.inertia
@@ -125,21 +131,27 @@ def make_advance(
         force = add_forces(parameters.forces, pose, wrench)
         momentum = kick(parameters.half_kick, inertia, state.momentum, force)
         iterations = 0
+        rescued = 0
         worst = 0.0
         for completed in range(steps):
-            pose, momentum, report = drift(inertia, parameters.h, pose, momentum)
+            moved, transported, report = drift(inertia, parameters.h, pose, momentum)
+            if not drift_accepted(report):
+                moved, transported, report = rescue(inertia, parameters.h, pose, momentum)
+                rescued += 1
             iterations += report.iterations
             worst = max(worst, report.relative_residual_squared)
             if not drift_accepted(report):
                 status = NOT_CONVERGED if report.on_rest_branch else WRONG_BRANCH
-                return StepOutcome(state, status, completed, iterations, report.relative_residual_squared)
-            pose = carry(parameters.water, parameters.h, pose)
+                residual = report.relative_residual_squared
+                return StepOutcome(state, status, completed, iterations, rescued, residual)
+            momentum = transported
+            pose = carry(parameters.water, parameters.h, moved)
             force = add_forces(parameters.forces, pose, wrench)
             closing = parameters.half_kick if completed == steps - 1 else parameters.full_kick
             momentum = kick(closing, inertia, momentum, force)
         if not is_finite(pose, momentum):
-            return StepOutcome(state, NOT_FINITE, steps, iterations, worst)
-        return StepOutcome(BodyState(pose, momentum), ACCEPTED, steps, iterations, worst)
+            return StepOutcome(state, NOT_FINITE, steps, iterations, rescued, worst)
+        return StepOutcome(BodyState(pose, momentum), ACCEPTED, steps, iterations, rescued, worst)
 
     return advance
 

@@ -1,7 +1,6 @@
 """Compiled code on disk follows the sources, and the terms of the scene."""
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -10,14 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.bodies import make_body
+from support.counting import counted, operations_of
 
 import dq_marine
 from dq_marine.engines.compilation import all_used_functions
-from dq_marine.engines.one_body import compiled_advance
-from dq_marine.engines.packing import structure_type
 from dq_marine.kernel.current import STILL_WATER
 from dq_marine.kernel.kick import undamped_kick
-from dq_marine.kernel.midpoint_drift import midpoint_drift
+from dq_marine.kernel.midpoint_drift import midpoint_drift, midpoint_rescue
+from dq_marine.kernel.spatial import from_fossen
 from dq_marine.kernel.step import Composition, make_advance
 from dq_marine.scene import Scene
 
@@ -29,49 +28,44 @@ PROGRAM = (
 )
 
 
-def instructions(body):
-    """Machine instructions of a body's compiled step."""
-    [assembly] = compiled_advance(body._composition, structure_type(body.parameters)).inspect_asm().values()
-    return len(re.findall(r"^\t[a-z]", assembly, re.MULTILINE))
+def operations(body):
+    """Arithmetic operations of one step of a body."""
+    body.reset(velocity_body=(0.3, -0.2, 0.1, 0.05, 0.04, -0.03))
+    advance = make_advance(body._composition)
+    wrench = counted(from_fossen((1.0, 2.0, 3.0, 0.1, 0.2, 0.3)))
+    return operations_of(advance, counted(body.parameters), counted(body.state), wrench, 1)
 
 
-@pytest.fixture
-def fresh_cache(tmp_path, monkeypatch):
-    """Compile anew, so that the assembly can be inspected."""
-    monkeypatch.setenv("DQ_MARINE_CACHE_DIR", str(tmp_path))
-    compiled_advance.cache_clear()
-    yield
-    compiled_advance.cache_clear()
-
-
-def test_an_absent_term_costs_no_instruction(fresh_cache):
-    """A scene without a term runs the very function of a scene that never heard of it; each term adds to it."""
+def test_an_absent_term_costs_nothing():
+    """A scene without a term runs the very function of a scene that never heard of it; a present term costs."""
     bare = make_body(M, 0.02)
-    assert bare._composition == Composition((), undamped_kick, midpoint_drift, STILL_WATER)
-    zero = make_body(
-        M, 0.02, excess_weight=0.0, arm=np.zeros(3), linear=np.zeros((6, 6)), current=np.zeros(3)
+    assert bare._composition == Composition(
+        (), undamped_kick, midpoint_drift, midpoint_rescue, STILL_WATER
     )
+    zero = make_body(M, 0.02, excess_weight=0.0, arm=np.zeros(3), linear=np.zeros((6, 6)), current=np.zeros(3))
     assert zero._advance is bare._advance
-    count = instructions_after_step(bare)
+    assert operations(zero) == operations(bare)
     for term in (
         {"excess_weight": 1.0},
         {"arm": (0.0, 0.0, 1.0)},
+        {"linear": np.eye(6)},
         {"quadratic": np.ones(6)},
         {"current": (0.1, 0.0, 0.0)},
     ):
-        assert instructions_after_step(make_body(M, 0.02, **term)) > count
+        assert operations(make_body(M, 0.02, **term)) > operations(bare)
 
 
-def instructions_after_step(body):
-    body.step()
-    return instructions(body)
+def test_diagonal_damping_does_not_multiply_by_zeros():
+    diagonal = make_body(M, 0.02, linear=np.eye(6), quadratic=np.ones(6))
+    full = make_body(M, 0.02, linear=np.eye(6) + 0.01, quadratic=np.ones(6))
+    assert operations(diagonal) < 0.75 * operations(full)
 
 
 def test_what_a_scene_lacks_is_not_used():
     bare = {
         function.__name__ for function in all_used_functions(make_advance(make_body(M, 0.02)._composition))
     }
-    assert "midpoint_drift" in bare
+    assert {"drift", "robust_drift", "drift_equation"} <= bare
     absent = {"net_weight", "righting_moment", "quadratic_kick", "linear_kick", "carry_with_current"}
     assert not bare & absent
     full = {

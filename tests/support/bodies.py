@@ -6,8 +6,8 @@ import numpy as np
 
 from dq_marine.engines.one_body import OneBody
 from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
-from dq_marine.kernel.midpoint_drift import midpoint_drift
 from dq_marine.kernel.step import Composition, StepParameters
+from dq_marine.scene import DRIFTS
 from dq_marine.terms import DampingTerm, inertia_term, nested_parameters, restoring_terms, vector3
 
 
@@ -42,6 +42,7 @@ def make_body(
     linear=None,
     quadratic=None,
     current=(0.0, 0.0, 0.0),
+    scheme="midpoint",
 ):
     """A `OneBody` with any M, restoring, damping (Fossen's order) and current."""
     linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)
@@ -49,10 +50,12 @@ def make_body(
     damping = DampingTerm(linear, quadratic, np.asarray(mass_matrix, dtype=float))
     forces = restoring_terms(excess_weight, np.asarray(arm, dtype=float))
     current = np.asarray(current, dtype=float)
+    drift, rescue = DRIFTS[scheme]
     composition = Composition(
         forces=tuple(term.function for term in forces),
         kick=damping.kick,
-        drift=midpoint_drift,
+        drift=drift,
+        rescue=rescue,
         water=MOVING_WATER if current.any() else STILL_WATER,
     )
 

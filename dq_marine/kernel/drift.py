@@ -1,0 +1,224 @@
+"""What the drifts of all schemes share: Newton's method, and what to do when it fails.
+
+A scheme eliminates the translation and leaves one equation in three unknowns x, the rotation variable of the step, for
+the scaled momenta a = (h/2) mu_angular and b = (h/2) mu_linear. `DriftScheme` names its functions. `make_drift`
+makes the fast drift, plain Newton; `make_robust_drift` the one for steps that the fast one does not solve:
+damped Newton, then continuation from rest, then the step split in up to `MAX_PIECES`. The equation and the branch decide
+alike in both, so a rescued step is as right as any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+from dq_marine.kernel.drift_report import (
+    ACCEPTED_RESIDUAL,
+    CONVERGED_RESIDUAL,
+    CONTINUED,
+    DAMPED,
+    DIRECT,
+    SPLIT,
+    DriftReport,
+    drift_accepted,
+)
+from dq_marine.kernel.dual_quaternion import DualQuaternion, dual_multiply, pose_renormalise
+from dq_marine.kernel.inertia import Inertia, twist_from_momentum
+from dq_marine.kernel.matrix3 import Matrix3, has_negative_real_eigenvalue, invert, transform
+from dq_marine.kernel.spatial import Spatial, spatial_scale
+from dq_marine.kernel.vector3 import Vector3, add_scaled, scale, subtract
+
+MAX_ITERATIONS = 12
+MAX_HALVINGS = 12
+MAX_CONTINUATION_SOLVES = 64
+SMALLEST_CONTINUATION_STEP = 1.0 / 256.0
+MAX_PIECES = 64
+
+Drift: TypeAlias = Callable[
+    [Inertia, float, DualQuaternion, Spatial], tuple[DualQuaternion, Spatial, DriftReport]
+]
+Solve: TypeAlias = Callable[[Inertia, Vector3, Vector3, Vector3], tuple[Any, DriftReport]]
+
+
+class DriftScheme(NamedTuple):
+    """The functions of one scheme.
+
+    Attributes:
+        equation: (inertia, x, a, b) -> a named tuple whose first field is x and which has `residual` and
+            `relative_residual_squared`.
+        jacobian: (inertia, equation) -> its 3x3 Jacobian.
+        guess: (step angle vector h omega) -> x to start from.
+        increment: (equation) -> the step's unit dual quaternion.
+        transport: (equation, a) -> (h/2) times the momentum afterwards.
+    """
+
+    equation: Callable[[Inertia, Vector3, Vector3, Vector3], Any]
+    jacobian: Callable[[Inertia, Any], Matrix3]
+    guess: Callable[[Vector3], Vector3]
+    increment: Callable[[Any], DualQuaternion]
+    transport: Callable[[Any, Vector3], Spatial]
+
+
+def make_newton(scheme: DriftScheme) -> Solve:
+    """Return (inertia, guess, a, b) -> (equation, report): Newton's method.
+
+    It stops when the residual is at round-off, when it has stopped falling below the accepted residual, or after
+    `MAX_ITERATIONS`.
+    """
+    equation_at, jacobian_at = scheme.equation, scheme.jacobian
+
+    def newton(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
+        equation = equation_at(inertia, guess, a, b)
+        on_rest_branch = False
+        iterations = 0
+        for _ in range(MAX_ITERATIONS):
+            jacobian = jacobian_at(inertia, equation)
+            on_rest_branch = not has_negative_real_eigenvalue(jacobian)
+            step = transform(invert(jacobian), equation.residual)
+            before = equation.relative_residual_squared
+            equation = equation_at(inertia, subtract(equation[0], step), a, b)
+            iterations += 1
+            after = equation.relative_residual_squared
+            if after <= CONVERGED_RESIDUAL**2:
+                break
+            if before <= ACCEPTED_RESIDUAL**2 and after >= 0.25 * before:
+                break
+        return equation, DriftReport(equation.relative_residual_squared, on_rest_branch, iterations, DIRECT)
+
+    return newton
+
+
+def make_damped_newton(scheme: DriftScheme) -> Solve:
+    """Return (inertia, guess, a, b) -> (equation, report): Newton's method whose steps are halved until they help."""
+    equation_at, jacobian_at = scheme.equation, scheme.jacobian
+
+    def damped_newton(
+        inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3
+    ) -> tuple[Any, DriftReport]:
+        equation = equation_at(inertia, guess, a, b)
+        on_rest_branch = False
+        iterations = 0
+        for _ in range(4 * MAX_ITERATIONS):
+            jacobian = jacobian_at(inertia, equation)
+            on_rest_branch = not has_negative_real_eigenvalue(jacobian)
+            step = transform(invert(jacobian), equation.residual)
+            before = equation.relative_residual_squared
+            part = 1.0
+            trial = equation_at(inertia, subtract(equation[0], step), a, b)
+            for _ in range(MAX_HALVINGS):
+                if trial.relative_residual_squared < before:
+                    break
+                part *= 0.5
+                trial = equation_at(inertia, add_scaled(equation[0], -part, step), a, b)
+            equation = trial
+            iterations += 1
+            if equation.relative_residual_squared <= CONVERGED_RESIDUAL**2:
+                break
+            if not equation.relative_residual_squared < before:
+                break
+        return equation, DriftReport(equation.relative_residual_squared, on_rest_branch, iterations, DAMPED)
+
+    return damped_newton
+
+
+def make_continuation(scheme: DriftScheme) -> Solve:
+    """Return (inertia, unused guess, a, b) -> (equation, report): follows the branch from rest.
+
+    Solves for s a, s b with s from 0 to 1, each from the last solution stretched; a solve that fails or leaves the
+    branch halves the step in s.
+    """
+    newton = make_newton(scheme)
+
+    def continuation(
+        inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3
+    ) -> tuple[Any, DriftReport]:
+        reached = 0.0
+        stride = 0.25
+        start = scale(stride, guess)
+        iterations = 0
+        equation, report = newton(inertia, start, scale(stride, a), scale(stride, b))
+        for _ in range(MAX_CONTINUATION_SOLVES):
+            iterations += report.iterations
+            if drift_accepted(report):
+                reached += stride
+                if reached >= 1.0:
+                    break
+                stretch = min(reached + stride, 1.0) / reached
+                start = scale(stretch, equation[0])
+            else:
+                stride *= 0.5
+                if stride < SMALLEST_CONTINUATION_STEP:
+                    break
+                start = scale((reached + stride) / (reached + 2.0 * stride), start)
+            target = min(reached + stride, 1.0)
+            equation, report = newton(inertia, start, scale(target, a), scale(target, b))
+        accepted = reached >= 1.0 and report.on_rest_branch
+        return equation, DriftReport(
+            equation.relative_residual_squared, accepted, iterations, CONTINUED
+        )
+
+    return continuation
+
+
+def make_drift_by(scheme: DriftScheme, solve: Solve) -> Drift:
+    """Return (inertia, h, pose, momentum) -> (pose, momentum, report): one step of free motion, solved by `solve`."""
+    guess_of, increment_of, transport = scheme.guess, scheme.increment, scheme.transport
+
+    def drift(
+        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        scaled = spatial_scale(0.5 * h, momentum)
+        guess = guess_of(scale(h, twist_from_momentum(inertia, momentum).angular))
+        equation, report = solve(inertia, guess, scaled.angular, scaled.linear)
+        moved = pose_renormalise(dual_multiply(pose, increment_of(equation)))
+        return moved, spatial_scale(2.0 / h, transport(equation, scaled.angular)), report
+
+    return drift
+
+
+def make_split_drift(drift: Drift) -> Drift:
+    """Return a drift that divides h into 2, 4, ... equal pieces until each is solved."""
+
+    def split_drift(
+        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        pieces = 2
+        while True:
+            moved, transported, report = drift(inertia, h / pieces, pose, momentum)
+            worst = report.relative_residual_squared
+            iterations = report.iterations
+            done = 1
+            while done < pieces and drift_accepted(report):
+                moved, transported, report = drift(inertia, h / pieces, moved, transported)
+                worst = max(worst, report.relative_residual_squared)
+                iterations += report.iterations
+                done += 1
+            if drift_accepted(report) or pieces >= MAX_PIECES:
+                return moved, transported, DriftReport(worst, report.on_rest_branch, iterations, SPLIT)
+            pieces *= 2
+
+    return split_drift
+
+
+def make_drift(scheme: DriftScheme) -> Drift:
+    """Return the fast drift: plain Newton."""
+    return make_drift_by(scheme, make_newton(scheme))
+
+
+def make_robust_drift(scheme: DriftScheme) -> Drift:
+    """Return the drift for steps that the fast one does not solve: damped, continued, split, in this order."""
+    damped = make_drift_by(scheme, make_damped_newton(scheme))
+    continued = make_drift_by(scheme, make_continuation(scheme))
+    split = make_split_drift(make_drift(scheme))
+
+    def robust_drift(
+        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        outcome = damped(inertia, h, pose, momentum)
+        if not drift_accepted(outcome[2]):
+            outcome = continued(inertia, h, pose, momentum)
+        if not drift_accepted(outcome[2]):
+            outcome = split(inertia, h, pose, momentum)
+        return outcome
+
+    return robust_drift
