@@ -11,11 +11,21 @@ from numpy.typing import NDArray
 
 from dq_marine.checks import finite_array, finite_number
 from dq_marine.errors import InvalidInputError
+from dq_marine.kernel.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
 from dq_marine.kernel.midpoint_drift import midpoint_drift, midpoint_rescue
 from dq_marine.kernel.paper_drift import paper_drift, paper_rescue
 from dq_marine.kernel.step import Composition, StepParameters
-from dq_marine.terms import DampingTerm, ForceTerm, inertia_term, nested_parameters, restoring_terms, vector3
+from dq_marine.kernel.strang import make_strang
+from dq_marine.terms import (
+    DampingTerm,
+    ForceTerm,
+    inertia_term,
+    nested_parameters,
+    restoring_terms,
+    strang_timing,
+    vector3,
+)
 from dq_marine.vehicles import Vehicle, load_vehicle
 
 if TYPE_CHECKING:
@@ -39,6 +49,7 @@ class Scene:
         current_ned: velocity of the water [m/s], shape (3,).
         scheme: name of the drift.
         step: step size h [s].
+        order: of the method.
         terms: names of what the step computes besides inertia and the control wrench.
     """
 
@@ -49,6 +60,7 @@ class Scene:
         current: Sequence[float] | NDArray[np.float64] = (0.0, 0.0, 0.0),
         scheme: str = "midpoint",
         step: float = 0.02,
+        order: int = 2,
     ) -> None:
         """Check and compose the scene.
 
@@ -56,7 +68,8 @@ class Scene:
             vehicle: a catalogue name, the path of a TOML file, or a `Vehicle`.
             current: velocity of the water in NED, shape (3,) [m/s].
             scheme: one of `DRIFTS`.
-            step: step size h [s].
+            step: step size h [s]; negative runs time backwards, in an undamped scene.
+            order: of the method, 2, or 4, 6 or 8 in an undamped scene.
 
         Raises:
             InvalidInputError: a value is wrong, or the step is too large for the vehicle's restoring forces.
@@ -67,17 +80,20 @@ class Scene:
         if scheme not in DRIFTS:
             raise InvalidInputError(f"scheme = {scheme!r} is unknown; give one of {sorted(DRIFTS)}")
         self.scheme = scheme
-        self.step = finite_number("step", step, above=0.0)
+        self.step = finite_number("step", step)
+        self.order = order
         self._check_restoring_step()
         self._restoring = self._restoring_terms()
         self._damping = DampingTerm(
             self.vehicle.linear_damping, self.vehicle.quadratic_damping, self.vehicle.mass_matrix
         )
+        self._check_method()
         self._inertia = inertia_term(self.vehicle.mass_matrix)
         names = [*(term.name for term in self._restoring), self._damping.name]
         self.terms = tuple(filter(None, [*names, "current" if self._has_current else ""]))
         drift, rescue = DRIFTS[scheme]
         self.composition = Composition(
+            method=make_strang if self.order == 2 else make_composed,
             forces=tuple(term.function for term in self._restoring),
             kick=self._damping.kick,
             drift=drift,
@@ -95,7 +111,13 @@ class Scene:
 
     def __reduce__(self) -> Any:
         """Travel as the arguments: a composition's functions are made anew where the scene arrives."""
-        return _rebuild, (self.vehicle, self.current_ned.tolist(), self.scheme, self.step)
+        return _rebuild, (
+            self.vehicle,
+            self.current_ned.tolist(),
+            self.scheme,
+            self.step,
+            self.order,
+        )
 
     def stepper(self) -> OneBody:
         """Return a body at rest at the world's origin, with the step compiled for this scene."""
@@ -123,13 +145,17 @@ class Scene:
     def parameters_at(self, step: float) -> StepParameters:
         """Return the numbers of this scene's step for a step size [s]."""
         return StepParameters(
-            h=step,
             inertia=self._inertia,
             forces=nested_parameters(self._restoring),
-            half_kick=self._damping.kick_parameters(0.5 * step),
-            full_kick=self._damping.kick_parameters(step),
             water=UniformCurrent(vector3(self.current_ned)) if self._has_current else (),
+            timing=self._timing(step),
         )
+
+    def _timing(self, step: float) -> Any:
+        """Return what the method needs to know of a step size."""
+        if self.order == 2:
+            return strang_timing(step, self._damping)
+        return ComposedTiming(tuple(step * stage for stage in STAGES[self.order]))
 
     @property
     def _has_current(self) -> bool:
@@ -145,10 +171,29 @@ class Scene:
             arm = np.zeros(3)
         return restoring_terms(excess, arm)
 
+    def _check_method(self) -> None:
+        """Negative steps, and the negative stages of high orders, undo damping unstably."""
+        if self.step == 0.0:
+            raise InvalidInputError("step = 0 s; give a positive step, or a negative one to run time backwards")
+        if self.order not in (2, *STAGES):
+            raise InvalidInputError(f"order = {self.order!r}; give one of {[2, *STAGES]}")
+        if not self._damping.name:
+            return
+        if self.step < 0.0:
+            raise InvalidInputError(
+                f"step = {self.step:g} s, but the vehicle has {self._damping.name}, which cannot be undone; give a "
+                "positive step, or a vehicle without damping"
+            )
+        if self.order != 2:
+            raise InvalidInputError(
+                f"order = {self.order}, but the vehicle has {self._damping.name}: orders above 2 take negative "
+                "stages, which cannot undo it; give order 2, or a vehicle without damping"
+            )
+
     def _check_restoring_step(self) -> None:
         """The restoring moment is explicit at the node: stable for h omega < 2."""
         fastest = float(self.restoring_frequencies.max())
-        if self.step * fastest >= 2.0:
+        if abs(self.step) * fastest >= 2.0:
             raise InvalidInputError(
                 f"step = {self.step:g} s is too large for the restoring moment: h omega = "
                 f"{self.step * fastest:.3g} with omega = {fastest:.3g} rad/s must stay below 2; give a step "
@@ -156,5 +201,5 @@ class Scene:
             )
 
 
-def _rebuild(vehicle: Vehicle, current: list[float], scheme: str, step: float) -> Scene:
-    return Scene(vehicle, current=current, scheme=scheme, step=step)
+def _rebuild(vehicle: Vehicle, current: list[float], scheme: str, step: float, order: int) -> Scene:
+    return Scene(vehicle, current=current, scheme=scheme, step=step, order=order)

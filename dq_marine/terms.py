@@ -23,6 +23,7 @@ from dq_marine.kernel.matrix3 import Matrix3
 from dq_marine.kernel.restoring import NetWeight, RightingMoment, net_weight, righting_moment
 from dq_marine.kernel.spatial import Matrix6, Spatial
 from dq_marine.kernel.step import PoseForce
+from dq_marine.kernel.strang import StrangTiming
 from dq_marine.kernel.vector3 import Vector3
 
 Array = NDArray[np.float64]
@@ -139,3 +140,8 @@ class DampingTerm(NamedTuple):
         one = np.eye(6)
         propagator = np.linalg.inv(one + hx + 0.5 * hx @ hx)
         return LinearKick(matrix6(propagator), matrix6(h * propagator @ (one + 0.5 * hx)))
+
+
+def strang_timing(step: float, damping: DampingTerm) -> StrangTiming:
+    """Return what Strang's method needs to know of a step size [s]."""
+    return StrangTiming(step, damping.kick_parameters(0.5 * step), damping.kick_parameters(step))

@@ -10,6 +10,10 @@ from dq_marine.kernel.vector3 import Vector3
 Matrix3: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
 
 
+DOUBLE_ROOT = 1e-10
+"""Of a cubic's terms: below this its minimum counts as zero."""
+
+
 def transform(m: Matrix3, a: Vector3) -> Vector3:
     """Return m a."""
     return (
@@ -132,7 +136,8 @@ def has_negative_real_eigenvalue(a: Matrix3) -> bool:
     """Whether a real eigenvalue of a is zero or negative; True for NaN.
 
     Those are the roots -mu, mu >= 0, of the characteristic polynomial: f(mu) = mu^3 + c2 mu^2 + c1 mu + c0 with
-    the invariants as coefficients. f(0) = c0 must be positive, and so must f where it is smallest on mu > 0.
+    the invariants as coefficients. f(0) = c0 must be positive, and so must f where it is smallest on mu > 0, beyond
+    round-off: two equal eigenvalues make it zero there.
     """
     c2, c1, c0 = trace(a), sum_of_principal_minors(a), determinant(a)
     if not c0 > 0.0:
@@ -143,7 +148,8 @@ def has_negative_real_eigenvalue(a: Matrix3) -> bool:
     lowest = (math.sqrt(discriminant) - c2) / 3.0
     if lowest <= 0.0:
         return False  # f rises on mu > 0
-    return not ((lowest + c2) * lowest + c1) * lowest + c0 > 0.0
+    size = ((lowest + abs(c2)) * lowest + abs(c1)) * lowest + c0
+    return not ((lowest + c2) * lowest + c1) * lowest + c0 > DOUBLE_ROOT * size
 
 
 def invert(a: Matrix3) -> Matrix3:

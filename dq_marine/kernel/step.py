@@ -1,8 +1,9 @@
-"""Composition of a step from its parts: half kick, drift, half kick.
+"""What a step is made of, and what comes of it.
 
 A scene names the functions it needs (`Composition`) and the numbers that go with them (`StepParameters`);
 `make_advance` joins the functions into one that advances a body. A term that a scene lacks is not in the
-composition, so nothing of it is compiled or computed.
+composition, so nothing of it is compiled or computed. How drifts and kicks follow each other is the composition's
+`method`: see `kernel.strang`, `kernel.composed` and `kernel.extrapolated`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import Any, NamedTuple, TypeAlias
 from dq_marine.kernel.body import BodyState, Motion
 from dq_marine.kernel.current import Water
 from dq_marine.kernel.drift import Drift
-from dq_marine.kernel.drift_report import drift_accepted
+from dq_marine.kernel.drift_report import DriftReport, drift_accepted
 from dq_marine.kernel.dual_quaternion import DualQuaternion, pose_position
 from dq_marine.kernel.inertia import Inertia, twist_from_momentum
 from dq_marine.kernel.kick import Kick
@@ -33,6 +34,7 @@ class Composition:
     """The functions that one scene's step is made of.
 
     Attributes:
+        method: (composition) -> advance; the order of drifts and kicks.
         forces: wrenches that depend on the pose, each (parameters, pose) -> wrench.
         kick: momentum change at frozen pose, (parameters, inertia, momentum, wrench) -> momentum.
         drift: force-free motion, (inertia, h, pose, momentum) -> (pose, momentum, report).
@@ -40,6 +42,7 @@ class Composition:
         water: what moving water does.
     """
 
+    method: Callable[[Composition], Advance]
     forces: tuple[PoseForce, ...]
     kick: Kick
     drift: Drift
@@ -51,20 +54,16 @@ class StepParameters(NamedTuple):
     """The numbers of one scene.
 
     Attributes:
-        h: step [s].
         inertia: M and its inverses.
         forces: the parameters of `Composition.forces`, nested in pairs (first, (second, (..., ()))).
-        half_kick: parameters of the kick over h/2.
-        full_kick: parameters of the kick over h.
         water: parameters of `Composition.water`.
+        timing: what depends on the step size, as the method wants it.
     """
 
-    h: float
     inertia: Inertia
     forces: Any
-    half_kick: Any
-    full_kick: Any
     water: Any
+    timing: Any
 
 
 class StepOutcome(NamedTuple):
@@ -112,48 +111,60 @@ def join_forces(forces: tuple[PoseForce, ...]) -> Callable[[Any, DualQuaternion,
     return add_forces
 
 
-def make_advance(
-    composition: Composition,
-) -> Callable[[StepParameters, BodyState, Spatial, int], StepOutcome]:
+Advance: TypeAlias = Callable[[StepParameters, BodyState, Spatial, int], StepOutcome]
+
+
+def make_advance(composition: Composition) -> Advance:
     """Return (parameters, state, wrench, steps) -> outcome: `steps` steps under a constant body wrench.
 
-    The closing half kick of a step and the opening one of the next share a pose and are taken as one full
-    kick. A step that the drift refuses ends the call, with the state before that step's drift discarded: the
-    outcome's state is the one handed in.
+    A step that the drift refuses ends the call; the outcome's state is then the one handed in.
     """
-    add_forces = join_forces(composition.forces)
-    kick, carry = composition.kick, composition.water.carry
-    drift, rescue = composition.drift, composition.rescue
+    return composition.method(composition)
 
-    def advance(parameters: StepParameters, state: BodyState, wrench: Spatial, steps: int) -> StepOutcome:
-        inertia = parameters.inertia
-        pose = state.pose
-        force = add_forces(parameters.forces, pose, wrench)
-        momentum = kick(parameters.half_kick, inertia, state.momentum, force)
-        iterations = 0
+
+class Flown(NamedTuple):
+    """A drift's outcome: pose, with the water's way added, momentum, report, and 1 if it had to be rescued."""
+
+    pose: DualQuaternion
+    momentum: Spatial
+    report: DriftReport
+    rescued: int
+
+
+def make_flight(composition: Composition) -> Callable[[StepParameters, float, DualQuaternion, Spatial], Flown]:
+    """Return (parameters, h, pose, momentum) -> the drift over h in the moving water, rescued where need be."""
+    drift, rescue, carry = composition.drift, composition.rescue, composition.water.carry
+
+    def fly(parameters: StepParameters, h: float, pose: DualQuaternion, momentum: Spatial) -> Flown:
+        moved, transported, report = drift(parameters.inertia, h, pose, momentum)
         rescued = 0
-        worst = 0.0
-        for completed in range(steps):
-            moved, transported, report = drift(inertia, parameters.h, pose, momentum)
-            if not drift_accepted(report):
-                moved, transported, report = rescue(inertia, parameters.h, pose, momentum)
-                rescued += 1
-            iterations += report.iterations
-            worst = max(worst, report.relative_residual_squared)
-            if not drift_accepted(report):
-                status = NOT_CONVERGED if report.on_rest_branch else WRONG_BRANCH
-                residual = report.relative_residual_squared
-                return StepOutcome(state, status, completed, iterations, rescued, residual)
-            momentum = transported
-            pose = carry(parameters.water, parameters.h, moved)
-            force = add_forces(parameters.forces, pose, wrench)
-            closing = parameters.half_kick if completed == steps - 1 else parameters.full_kick
-            momentum = kick(closing, inertia, momentum, force)
-        if not is_finite(pose, momentum):
-            return StepOutcome(state, NOT_FINITE, steps, iterations, rescued, worst)
-        return StepOutcome(BodyState(pose, momentum), ACCEPTED, steps, iterations, rescued, worst)
+        if not drift_accepted(report):
+            moved, transported, report = rescue(parameters.inertia, h, pose, momentum)
+            rescued = 1
+        return Flown(carry(parameters.water, h, moved), transported, report, rescued)
 
-    return advance
+    return fly
+
+
+def refusal(state: BodyState, completed: int, iterations: int, rescued: int, report: DriftReport) -> StepOutcome:
+    """Return the outcome of a step that was not solved."""
+    status = NOT_CONVERGED if report.on_rest_branch else WRONG_BRANCH
+    return StepOutcome(state, status, completed, iterations, rescued, report.relative_residual_squared)
+
+
+def arrival(
+    start: BodyState,
+    pose: DualQuaternion,
+    momentum: Spatial,
+    steps: int,
+    iterations: int,
+    rescued: int,
+    worst: float,
+) -> StepOutcome:
+    """Return the outcome of steps that were all solved: where they led, unless that is not finite."""
+    if not is_finite(pose, momentum):
+        return StepOutcome(start, NOT_FINITE, steps, iterations, rescued, worst)
+    return StepOutcome(BodyState(pose, momentum), ACCEPTED, steps, iterations, rescued, worst)
 
 
 def make_motion(composition: Composition) -> Callable[[StepParameters, BodyState], Motion]:

@@ -18,6 +18,7 @@ from dq_marine.kernel.kick import undamped_kick
 from dq_marine.kernel.midpoint_drift import midpoint_drift, midpoint_rescue
 from dq_marine.kernel.spatial import from_fossen
 from dq_marine.kernel.step import Composition, make_advance
+from dq_marine.kernel.strang import make_strang
 from dq_marine.scene import Scene
 
 M = np.diag([20.0, 25.0, 30.0, 1.0, 1.5, 2.0])
@@ -40,7 +41,7 @@ def test_an_absent_term_costs_nothing():
     """A scene without a term runs the very function of a scene that never heard of it; a present term costs."""
     bare = make_body(M, 0.02)
     assert bare._composition == Composition(
-        (), undamped_kick, midpoint_drift, midpoint_rescue, STILL_WATER
+        make_strang, (), undamped_kick, midpoint_drift, midpoint_rescue, STILL_WATER
     )
     zero = make_body(M, 0.02, excess_weight=0.0, arm=np.zeros(3), linear=np.zeros((6, 6)), current=np.zeros(3))
     assert zero._advance is bare._advance

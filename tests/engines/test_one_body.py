@@ -10,6 +10,10 @@ from hypothesis import strategies as st
 from support.bodies import make_body, random_damping, random_inertia, random_quaternion
 
 from dq_marine.errors import InvalidInputError, StepNotSolvableError
+from dq_marine.kernel.drift import make_continuation, make_damped_newton, make_drift_by, make_newton
+from dq_marine.kernel.drift_report import drift_accepted
+from dq_marine.kernel.midpoint_drift import MIDPOINT
+from dq_marine.kernel.paper_drift import PAPER
 from dq_marine.scene import Scene
 
 seeds = st.integers(0, 2**32 - 1)
@@ -103,22 +107,52 @@ def test_bad_input_is_refused_and_changes_nothing(call, message):
     assert np.array_equal(body.get_state(), before)
 
 
-def test_a_step_beyond_the_translation_limit_is_refused_by_name():
-    """H v beyond the Munk limit 2/sigma': the discrete equation leaves the branch that starts at rest."""
-    m = np.diag([35.39387824, 60.86052274, 60.86052274, 0.20453077, 2.79541877, 2.79541877])
-    body = make_body(m, 1.0)
-    body.reset(velocity_body=(0.8, 0.0, 0.0, 0.0, 0.0, 0.0))  # h sigma = 1.84
-    body.step()
-    body.reset(velocity_body=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))  # h sigma = 2.30
+SPHEROID = np.diag([35.39387824, 60.86052274, 60.86052274, 0.20453077, 2.79541877, 2.79541877])
+MUNK_RATE = 2.301752703506763  # growth rate at 1 m/s
+
+
+def test_a_step_beyond_the_translation_limit_is_split():
+    """Up to h sigma = 2 plain Newton solves the step; beyond, on the wrong branch, it is split, and counted."""
+    for speed, rescued in ((1.9 / MUNK_RATE, 0), (2.1 / MUNK_RATE, 1)):
+        body = make_body(SPHEROID, 1.0)
+        body.reset(velocity_body=(speed, 0.0, 0.0, 0.0, 0.0, 0.0))
+        body.step()
+        assert body.steps_rescued == rescued
+        assert np.allclose(body.position_ned, (speed, 0.0, 0.0), atol=1e-12)
+
+
+def test_a_step_beyond_every_rescue_is_refused_by_name():
+    """h sigma = 2 x 64 is where the smallest pieces leave the branch too."""
+    body = make_body(SPHEROID, 1.0)
+    body.reset(velocity_body=(2.0 * 64.0 / MUNK_RATE * 1.01, 0.0, 0.0, 0.0, 0.0, 0.0))
     before = body.get_state()
     with pytest.raises(StepNotSolvableError, match="wrong_branch") as caught:
         body.step()
     assert np.array_equal(body.get_state(), before)
-    assert caught.value.step_times_speed == pytest.approx(1.0)
+    assert caught.value.step_times_speed == pytest.approx(56.2, abs=0.1)
     assert caught.value.admissible_step == 0.5
-    again = make_body(m, caught.value.admissible_step)
+    again = make_body(SPHEROID, caught.value.admissible_step)
     again.set_state(before)
     again.step(steps=2)
+
+
+@settings(max_examples=100, deadline=None)
+@given(seeds, st.floats(0.0, 1.7), st.sampled_from([MIDPOINT, PAPER]))
+def test_all_ways_to_solve_a_step_find_the_same_solution(seed, log_size, scheme):
+    """Whatever plain or damped Newton accept is what continuation from rest arrives at."""
+    rng = np.random.default_rng(seed)
+    body = make_body(random_inertia(rng), 0.1)
+    velocity = rng.normal(size=6)
+    body.reset(velocity_body=velocity * 10.0**log_size / np.linalg.norm(velocity))
+    inertia, (pose, momentum) = body.parameters.inertia, body.state
+    solvers = [make_newton, make_damped_newton, make_continuation]
+    outcomes = [make_drift_by(scheme, make(scheme))(inertia, 0.1, pose, momentum) for make in solvers]
+    if drift_accepted(outcomes[2][2]):
+        for moved, carried, report in outcomes[:2]:
+            if drift_accepted(report):
+                assert np.allclose(np.concatenate(moved), np.concatenate(outcomes[2][0]), atol=1e-8)
+                scale = np.abs(np.concatenate(carried)).max()
+                assert np.allclose(np.concatenate(carried), np.concatenate(outcomes[2][1]), atol=1e-8 * scale)
 
 
 @settings(max_examples=60, deadline=None)

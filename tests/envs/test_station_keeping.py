@@ -353,7 +353,7 @@ def test_nothing_works_before_reset():
 def test_a_refused_step_ends_the_episode_and_says_why():
     env = StationKeepingEnv(substeps=1, control_period=0.5, workspace_radius=1e4, start_radius=1.0)
     observation, _ = env.reset(
-        seed=0, options={"velocity": (300.0, 300.0, 0.0, 50.0, 800.0, 90.0), "position": (0.0, 0.0, 5.0)}
+        seed=0, options={"velocity": (3e4, 3e4, 0.0, 5e3, 8e4, 9e3), "position": (0.0, 0.0, 5.0)}
     )
     for _ in range(10):
         before = env.position_ned

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from dq_marine.engines.one_body import OneBody
+from dq_marine.kernel.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
 from dq_marine.kernel.step import Composition, StepParameters
+from dq_marine.kernel.strang import make_strang
 from dq_marine.scene import DRIFTS
-from dq_marine.terms import DampingTerm, inertia_term, nested_parameters, restoring_terms, vector3
+from dq_marine.terms import DampingTerm, inertia_term, nested_parameters, restoring_terms, strang_timing, vector3
 
 
 def random_inertia(rng, condition=20.0, coupled=True):
@@ -43,6 +45,7 @@ def make_body(
     quadratic=None,
     current=(0.0, 0.0, 0.0),
     scheme="midpoint",
+    order=2,
 ):
     """A `OneBody` with any M, restoring, damping (Fossen's order) and current."""
     linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)
@@ -52,6 +55,7 @@ def make_body(
     current = np.asarray(current, dtype=float)
     drift, rescue = DRIFTS[scheme]
     composition = Composition(
+        method=make_strang if order == 2 else make_composed,
         forces=tuple(term.function for term in forces),
         kick=damping.kick,
         drift=drift,
@@ -60,13 +64,15 @@ def make_body(
     )
 
     def parameters_at(h):
+        if order == 2:
+            timing = strang_timing(h, damping)
+        else:
+            timing = ComposedTiming(tuple(h * stage for stage in STAGES[order]))
         return StepParameters(
-            h=h,
             inertia=inertia_term(np.asarray(mass_matrix, dtype=float)),
             forces=nested_parameters(forces),
-            half_kick=damping.kick_parameters(0.5 * h),
-            full_kick=damping.kick_parameters(h),
             water=UniformCurrent(vector3(current)) if current.any() else (),
+            timing=timing,
         )
 
     return OneBody(composition, parameters_at, step)

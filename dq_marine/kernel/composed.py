@@ -1,0 +1,105 @@
+"""Orders 4, 6 and 8 for undamped scenes: symmetric compositions of Strang's step.
+
+A step of size h is made of stages of sizes g_i h, some negative. Strang's step is symmetric, so a symmetric sequence of
+stages raises its order (Hairer, Lubich, Wanner 2006, Geometric Numerical Integration, sec. V.3). Spatial momentum stays
+exact and energy bounded. Negative stages undo damping unstably, so damped scenes cannot use them.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from dq_marine.kernel.body import BodyState
+from dq_marine.kernel.drift_report import drift_accepted
+from dq_marine.kernel.spatial import Spatial, spatial_add_scaled
+from dq_marine.kernel.step import (
+    Advance,
+    Composition,
+    StepOutcome,
+    StepParameters,
+    arrival,
+    join_forces,
+    make_flight,
+    refusal,
+)
+
+_SUZUKI = 1.0 / (4.0 - 4.0 ** (1.0 / 3.0))
+
+STAGES: dict[int, tuple[float, ...]] = {
+    # Suzuki 1990, Phys. Lett. A 146, 319: five stages
+    4: (_SUZUKI, _SUZUKI, 1.0 - 4.0 * _SUZUKI, _SUZUKI, _SUZUKI),
+    # Kahan & Li 1997, Math. Comp. 66, 1089: s9odr6a
+    6: (
+        0.39216144400731413927925056,
+        0.33259913678935943859974864,
+        -0.70624617255763935980996482,
+        0.08221359629355080023149045,
+        0.79854399093482996339895035,
+        0.08221359629355080023149045,
+        -0.70624617255763935980996482,
+        0.33259913678935943859974864,
+        0.39216144400731413927925056,
+    ),
+    # Kahan & Li 1997: s17odr8a
+    8: (
+        0.13020248308889008087881763,
+        0.56116298177510838456196441,
+        -0.38947496264484728640807860,
+        0.15884190655515560089621075,
+        -0.39590389413323757733623154,
+        0.18453964097831570709183254,
+        0.25837438768632204729397911,
+        0.29501172360931029887096624,
+        -0.60550853383003451169892108,
+        0.29501172360931029887096624,
+        0.25837438768632204729397911,
+        0.18453964097831570709183254,
+        -0.39590389413323757733623154,
+        0.15884190655515560089621075,
+        -0.38947496264484728640807860,
+        0.56116298177510838456196441,
+        0.13020248308889008087881763,
+    ),
+}
+"""Stage sizes over the step size, by order."""
+
+
+class ComposedTiming(NamedTuple):
+    """Stage sizes g_i h [s]."""
+
+    stages: tuple[float, ...]
+
+
+def make_composed(composition: Composition) -> Advance:
+    """Return the advance of a symmetric composition; the scene must be undamped.
+
+    Between stages, and between steps, the half kicks that share a pose are taken together.
+    """
+    add_forces = join_forces(composition.forces)
+    fly = make_flight(composition)
+
+    def composed(parameters: StepParameters, state: BodyState, wrench: Spatial, steps: int) -> StepOutcome:
+        stages = parameters.timing.stages
+        pose = state.pose
+        force = add_forces(parameters.forces, pose, wrench)
+        momentum = spatial_add_scaled(state.momentum, 0.5 * stages[0], force)
+        iterations = 0
+        rescued = 0
+        worst = 0.0
+        for completed in range(steps):
+            for stage in range(len(stages)):
+                flown = fly(parameters, stages[stage], pose, momentum)
+                iterations += flown.report.iterations
+                rescued += flown.rescued
+                worst = max(worst, flown.report.relative_residual_squared)
+                if not drift_accepted(flown.report):
+                    return refusal(state, completed, iterations, rescued, flown.report)
+                pose = flown.pose
+                last = stage == len(stages) - 1
+                following = 0.0 if last and completed == steps - 1 else stages[0 if last else stage + 1]
+                force = add_forces(parameters.forces, pose, wrench)
+                duration = 0.5 * (stages[stage] + following)
+                momentum = spatial_add_scaled(flown.momentum, duration, force)
+        return arrival(state, pose, momentum, steps, iterations, rescued, worst)
+
+    return composed
