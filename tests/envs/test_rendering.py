@@ -84,7 +84,7 @@ def test_a_recorded_episode_is_saved(tmp_path):
     path = tmp_path / "replay.html"
     env.save_html(path)
     assert "BlueROV2 Heavy" in path.read_text()
-    with pytest.raises(InvalidInputError, match="folder|directory"):
+    with pytest.raises(InvalidInputError, match=r"folder|directory"):
         env.save_html(tmp_path / "nowhere" / "replay.html")
 
 
