@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.announce import announce
 from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import Vehicle
 from dq_marine.viewer.snapshot import Shape, Snapshot, Thruster
@@ -17,9 +18,6 @@ if TYPE_CHECKING:
     from dq_marine.viewer.live import LiveViewer
     from dq_marine.viewer.offscreen import OffscreenViewer
     from dq_marine.viewer.pacing import RealTimePacer
-
-FLOOR_CLEARANCE = 3.0
-"""Depth of the sea floor below the goal, or below the start without one [m]."""
 
 
 def shape_of(vehicle: Vehicle) -> Shape:
@@ -31,7 +29,10 @@ def shape_of(vehicle: Vehicle) -> Shape:
         height=size.height,
         kind=size.shape,
         max_force=float(vehicle.wrench_limits[:3].max()) or 1.0,
-        thrusters=tuple(Thruster(thruster.position, thruster.direction) for thruster in vehicle.thrusters),
+        thrusters=tuple(
+            Thruster(np.array(thruster.position), np.array(thruster.direction))
+            for thruster in vehicle.thrusters
+        ),
     )
 
 
@@ -72,12 +73,11 @@ class EpisodeView:
         """Return a picture in mode "rgb_array"."""
         if self._mode != "rgb_array":
             return None
-        snapshot = env.snapshot()
         if self._offscreen is None:
             from dq_marine.viewer.offscreen import OffscreenViewer
 
-            self._offscreen = OffscreenViewer(self._shape, floor_depth=_floor_depth(snapshot))
-        return self._offscreen.render(snapshot)
+            self._offscreen = OffscreenViewer(self._shape)
+        return self._offscreen.render(env.snapshot())
 
     def save_html(self, path: str | os.PathLike[str]) -> None:
         """Write the recorded episode as a standalone page."""
@@ -87,8 +87,7 @@ class EpisodeView:
             )
         from dq_marine.viewer.replay import save_replay
 
-        floor_depth = max(_floor_depth(snapshot) for snapshot in self._snapshots)
-        save_replay(path, self._snapshots, self._shape, floor_depth=floor_depth, title=self._title)
+        save_replay(path, self._snapshots, self._shape, title=self._title)
 
     def close(self) -> None:
         """Close page and pictures; both open again when asked for."""
@@ -102,15 +101,9 @@ class EpisodeView:
         from dq_marine.viewer.pacing import RealTimePacer
 
         if self._live is None:
-            self._live = LiveViewer(self._shape, floor_depth=_floor_depth(snapshot), open_browser=True)
+            self._live = LiveViewer(self._shape, open_browser=True)
+            announce(f"the live page is at {self._live.url}")
         if self._pacer is None:
             self._pacer = RealTimePacer()
         self._pacer.wait_until(snapshot.time)
         self._live.draw(snapshot)
-
-
-def _floor_depth(snapshot: Snapshot) -> float:
-    deepest = float(snapshot.position_ned[2])
-    if snapshot.goal_position_ned is not None:
-        deepest = max(deepest, float(snapshot.goal_position_ned[2]))
-    return deepest + FLOOR_CLEARANCE

@@ -8,13 +8,13 @@ import dq_marine  # noqa: F401 - registers the environments
 def main() -> None:
     """Run one episode with a fixed seed."""
     env = gym.make("dq_marine/StationKeeping-v0", current=0.3)
-    observation, info = env.reset(seed=1)
+    _, info = env.reset(seed=1)
     print(f"start: {info['position_error']:.2f} m from the goal, current {info['current_ned']} m/s")
     terminated = truncated = False
     total = 0.0
     while not (terminated or truncated):
         action = [0.0] * 6
-        observation, reward, terminated, truncated, info = env.step(action)
+        _, reward, terminated, truncated, info = env.step(action)
         total += reward
     print(f"end: {info['position_error']:.2f} m, return {total:.1f}")
     env.close()

@@ -8,7 +8,6 @@ import importlib
 import inspect
 import os
 import pkgutil
-import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -21,6 +20,7 @@ from numba.extending import register_jitable
 
 import dq_marine.engines
 import dq_marine.kernel
+from dq_marine.announce import announce
 
 CACHE_DIRECTORY_VARIABLE = "DQ_MARINE_CACHE_DIR"
 
@@ -133,14 +133,8 @@ class _CompositionCache(FunctionCache):
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         loaded = super().load_overload(sig, target_context)
         if loaded is None:
-            announce("compiling for this scene: about ten seconds, once on this machine")
+            announce("compiling for this scene, some ten seconds; kept for the next time")
         return loaded
-
-
-def announce(message: str) -> None:
-    """Tell the person at the terminal why they wait."""
-    sys.stderr.write(f"dq-marine: {message}\n")
-    sys.stderr.flush()
 
 
 def compile_function(function: Callable[..., Any], layout: str) -> Callable[..., Any]:

@@ -156,8 +156,14 @@ def test_the_environment_is_the_scene():
 def test_observation_is_what_it_says():
     env = StationKeepingEnv()
     goal_q = np.array([0.8, 0.0, 0.0, 0.6])
-    options = {"position": (1.0, 2.0, 4.0), "quaternion": (0.5, 0.5, 0.5, 0.5), "velocity": (0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
-               "goal_position": (0.5, 1.0, 5.0), "goal_quaternion": goal_q, "current": (0.1, 0.0, 0.0)}  # fmt: skip
+    options = {
+        "position": (1.0, 2.0, 4.0),
+        "quaternion": (0.5, 0.5, 0.5, 0.5),
+        "velocity": (0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
+        "goal_position": (0.5, 1.0, 5.0),
+        "goal_quaternion": goal_q,
+        "current": (0.1, 0.0, 0.0),
+    }
     observation, info = env.reset(seed=0, options=options)
     body = Rotation.from_quat([0.5, 0.5, 0.5, 0.5])
     goal = Rotation.from_quat(np.roll(goal_q, -1))
@@ -204,8 +210,14 @@ def test_reward_is_its_formula():
         - 0.1 * np.mean(action.astype(float) ** 2)
     )
     assert reward == pytest.approx(expected, rel=1e-12)
-    as_dictionary = StationKeepingEnv(reward={"position": 0.4, "precision": 0.2, "attitude": 0.3, "effort": 0.1, "position_width": 2.0})  # fmt: skip
-    assert as_dictionary.reward == weights
+    as_dictionary = {
+        "position": 0.4,
+        "precision": 0.2,
+        "attitude": 0.3,
+        "effort": 0.1,
+        "position_width": 2.0,
+    }
+    assert StationKeepingEnv(reward=as_dictionary).reward == weights
 
 
 def test_starts_are_spread_as_documented():

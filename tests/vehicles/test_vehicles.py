@@ -32,7 +32,7 @@ def test_bluerov2_heavy_has_the_published_numbers():
     vehicle = load_vehicle("bluerov2_heavy")
     assert np.allclose(
         np.diag(vehicle.mass_matrix),
-        np.array([13.5] * 3 + [0.26, 0.23, 0.37]) + [6.3567, 7.1206, 18.6863, 0.1858, 0.1348, 0.2215],
+        np.add((13.5, 13.5, 13.5, 0.26, 0.23, 0.37), (6.3567, 7.1206, 18.6863, 0.1858, 0.1348, 0.2215)),
     )
     assert vehicle.weight == pytest.approx(13.5 * 9.81)
     assert vehicle.buoyant_force == pytest.approx(13.4 * 9.81)
@@ -80,7 +80,7 @@ WRONG = {
     "derivatives' sign": ("added_mass = [6.3567", "added_mass = [-6.3567", "added_mass", "write minus them"),
     "damping's sign": ("linear = [13.7", "linear = [-13.7", "damping.linear", "feeds energy in"),
     "quadratic sign": ("quadratic = [141.0", "quadratic = [-141.0", "damping.quadratic", "negative"),
-    "no actuation": ("wrench = [113.0, 113.0, 160.0, 34.9, 19.2, 30.2]", "wrench = [0, 0, 0, 0, 0, 0]", "limits", "axis"),
+    "no actuation": ("[113.0, 113.0, 160.0, 34.9, 19.2, 30.2]", "[0, 0, 0, 0, 0, 0]", "limits", "axis"),
     "limits in kN m": ("wrench = [113.0", "wrench = [113000000.0", "limits.wrench", "in N"),
     "centre in mm": ("center = [0.0, 0.0, -0.01]", "center = [0.0, 0.0, -10.0]", "buoyancy.center", "in m"),
     "density in g/cm^3": ("water_density = 1000.0", "water_density = 1.0", "mass", "kg/m^3"),

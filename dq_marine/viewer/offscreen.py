@@ -1,0 +1,115 @@
+"""Pictures of the vehicle as arrays of pixels, without any display."""
+
+from __future__ import annotations
+
+import io
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.errors import InvalidInputError
+from dq_marine.viewer.browser import HeadlessBrowser, find_chromium
+from dq_marine.viewer.caption import write_caption
+from dq_marine.viewer.drawing import checked_floor_depth
+from dq_marine.viewer.errors import ViewerError
+from dq_marine.viewer.extras import optional_module
+from dq_marine.viewer.server_process import ServerProcess
+from dq_marine.viewer.snapshot import Shape, Snapshot
+from dq_marine.viewer.stage import Stage
+
+FIRST_PICTURE_TIMEOUT = 60.0
+PICTURE_TIMEOUT = 20.0
+"""Seconds; the first picture includes the start of the browser."""
+
+LARGEST_SIDE = 8192
+"""Pixels; WebGL promises no more."""
+
+
+class OffscreenViewer:
+    """Draws snapshots in a browser without a window and returns what it shows."""
+
+    def __init__(
+        self,
+        shape: Shape,
+        width: int = 640,
+        height: int = 480,
+        *,
+        floor_depth: float | None = None,
+        caption: bool = True,
+    ) -> None:
+        """Start the viewer's server and a Chromium.
+
+        Args:
+            shape: the vehicle.
+            width: of the pictures [pixels].
+            height: of the pictures [pixels].
+            floor_depth: depth of the sea floor [m]; None puts one below vehicle and goal.
+            caption: write simulated time and depth in a corner of the picture.
+
+        Raises:
+            MissingDependencyError: a library of the viewer, or Chromium, is not installed.
+            InvalidInputError: a size that cannot be drawn, or a `floor_depth` not above 0.
+            ViewerError: the server did not start.
+        """
+        for name, pixels in (("width", width), ("height", height)):
+            if not 1 <= pixels <= LARGEST_SIDE:
+                raise InvalidInputError(f"{name} is {pixels}; give 1 to {LARGEST_SIDE} pixels")
+        floor_depth = checked_floor_depth(floor_depth)
+        find_chromium()
+        self._image = optional_module("PIL.Image")
+        self._size = (width, height)
+        self._caption = caption
+        self._timeout = FIRST_PICTURE_TIMEOUT
+        self._server = ServerProcess()
+        self._stage = Stage(self._server, shape, floor_depth)
+        page = f"{self._server.web_url}capture?width={width}&height={height}"
+        self._browser = HeadlessBrowser(page, width, height)
+
+    def render(self, snapshot: Snapshot) -> NDArray[np.uint8]:
+        """A picture of a snapshot.
+
+        Returns:
+            Red, green and blue of every pixel, shape (height, width, 3).
+
+        Raises:
+            ViewerError: the viewer is closed, or its server or browser has gone.
+        """
+        self._stage.draw(snapshot)
+        png = self._server.capture(self._timeout, self._check_browser)
+        self._timeout = PICTURE_TIMEOUT
+        picture = self._image.open(io.BytesIO(png)).convert("RGB")
+        if picture.size != self._size:
+            raise ViewerError(f"the browser drew {picture.size} pixels instead of {self._size}")
+        if self._caption:
+            write_caption(picture, snapshot)
+        pixels: NDArray[np.uint8] = np.array(picture)
+        return pixels
+
+    def clear_trail(self) -> None:
+        """Begin a new episode: forget where the vehicle was.
+
+        A snapshot whose time is earlier than that of the last one does the same by itself.
+        """
+        self._stage.restart()
+
+    def close(self) -> None:
+        """End server and browser. May be called again."""
+        self._browser.close()
+        self._server.close()
+
+    def __enter__(self) -> OffscreenViewer:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _check_browser(self) -> None:
+        if not self._browser.running:
+            self.close()
+            raise ViewerError("the headless Chromium has ended; open a new viewer")

@@ -1,0 +1,171 @@
+"""The viewer's web pages: a live one, one that only has its picture taken, and the replay's.
+
+Each is meshcat's page in the viewer's own dress. The caption takes its numbers from the scene itself,
+so that it is right in every page, also while an animation runs or is scrubbed.
+"""
+
+from __future__ import annotations
+
+from string import Template
+
+STYLE = """
+  html, body { margin: 0; height: 100%; background: #05263a; overflow: hidden; }
+  #meshcat-pane { width: 100vw; height: 100vh; overflow: hidden; }
+  #caption {
+    position: absolute; left: 20px; top: 16px; color: #f2fbff; pointer-events: none;
+    font: 15px/1.4 system-ui, sans-serif; text-shadow: 0 1px 3px #00131e;
+  }
+  #title { font-weight: 600; font-size: 17px; }
+  #clock { font-weight: 600; font-size: 30px; font-variant-numeric: tabular-nums; }
+  #notice { font-weight: 600; color: #ffd166; }
+  #controls {
+    position: absolute; left: 20px; right: 20px; bottom: 18px; display: flex; gap: 12px;
+    align-items: center; padding: 8px 12px; border-radius: 10px; background: #00192acc;
+  }
+  #controls button, #controls select {
+    font: 15px system-ui, sans-serif; color: #f2fbff; background: #0f5f86; border: 0;
+    border-radius: 6px; padding: 6px 10px; cursor: pointer;
+  }
+  #controls[hidden] { display: none; }
+  #play { width: 84px; }
+  #slider { flex: 1; cursor: pointer; accent-color: #37c5d8; }
+"""
+
+CAPTION = """
+<div id="caption">
+  <div id="title">$title</div>
+  <div id="clock"></div>
+  <div id="details"></div>
+  <div id="notice"></div>
+</div>
+"""
+
+CAPTION_SCRIPT = """
+  const node = (...path) => viewer.scene_tree.find(path).object;
+  const element = (id) => document.getElementById(id);
+  const show = (id, text) => { element(id).textContent = text; };
+
+  function update_caption() {
+    const depth = node("world", "vehicle").position.z;
+    const cell = node("world", "floor", "sand", "<object>").userData.cell;
+    show("clock", node("world", "clock").position.x.toFixed(1) + " s");
+    show("details", "depth " + depth.toFixed(2) + " m" + (cell ? " · grid " + cell + " m" : ""));
+    requestAnimationFrame(update_caption);
+  }
+  update_caption();
+"""
+
+LIVE_SCRIPT = """
+  const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
+  viewer.connect();
+  viewer.connection.addEventListener("close", () => show("notice", "The simulation has ended."));
+"""
+
+CAPTURE_SCRIPT = """
+  // A picture has the size that was asked for, whatever the browser's window looks like, and the
+  // scene is drawn only when a picture is taken: no animation loop.
+  const size = new URLSearchParams(location.search);
+  const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"), false);
+  const set_size = viewer.set_3d_pane_size.bind(viewer);
+  viewer.set_3d_pane_size = () => set_size(Number(size.get("width")), Number(size.get("height")));
+  viewer.set_3d_pane_size();
+  viewer.connect();
+  // The last page closes the browser: it ends with the server even if nobody is left to end it.
+  viewer.connection.addEventListener("close", () => window.close());
+"""
+
+CONTROLS = """
+<div id="controls">
+  <button id="play"></button>
+  <input id="slider" type="range" min="0" step="any" value="0" aria-label="time">
+  <select id="speed" aria-label="speed">
+    <option value="0.5">0.5 x</option>
+    <option value="1" selected>1 x</option>
+    <option value="2">2 x</option>
+    <option value="5">5 x</option>
+    <option value="20">20 x</option>
+  </select>
+</div>
+"""
+
+REPLAY_SCRIPT = """
+  const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
+  const bytes = (base64) => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+  for (const command of commands) {
+    viewer.handle_command_bytearray(bytes(command));
+  }
+"""
+
+CONTROLS_SCRIPT = """
+  const animator = viewer.animator;
+  const toggle = () => animator.playing ? animator.pause() : animator.play();
+  const seek = (time) => { animator.pause(); animator.seek(time); animator.display_progress(time); };
+  const trail = node("world", "trail", "<object>").geometry;
+
+  element("play").onclick = toggle;
+  element("slider").max = animator.duration;
+  element("slider").oninput = (event) => seek(Number(event.target.value));
+  element("speed").onchange = (event) => { animator.mixer.timeScale = Number(event.target.value); };
+  document.addEventListener("keydown", (event) => {
+    if (event.code === "Space") { event.preventDefault(); toggle(); }
+  });
+  element("controls").hidden = animator.duration === 0;
+
+  function update_controls() {
+    show("play", animator.playing ? "Pause" : "Play");
+    element("slider").value = animator.time;
+    // The trail ends at the vehicle: it has one point for each recorded time. The clock has single
+    // precision, hence the millisecond.
+    const now = node("world", "clock").position.x + 0.001;
+    const later = times.findIndex((time) => time > now);
+    const reached = later < 0 ? times.length : later;
+    if (trail.drawRange.count !== reached) {
+      trail.setDrawRange(0, reached);
+      viewer.set_dirty();
+    }
+    requestAnimationFrame(update_controls);
+  }
+  update_controls();
+"""
+
+
+def _page(title: str, body: str, *scripts: str) -> str:
+    """A whole page around meshcat's pane."""
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style></head>
+<body>
+<div id="meshcat-pane"></div>
+{body}
+{"".join(scripts)}
+</body>
+</html>
+"""
+
+
+def _inline(script: str) -> str:
+    return f"<script>{script}</script>\n"
+
+
+SERVED_MESHCAT = '<script src="main.min.js"></script>\n'
+
+LIVE_PAGE = _page(
+    "dq-marine", CAPTION.replace("$title", ""), SERVED_MESHCAT, _inline(LIVE_SCRIPT + CAPTION_SCRIPT)
+)
+CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT))
+
+REPLAY_DATA_SCRIPT = """
+  const commands = $commands;
+  const times = $times;
+"""
+
+REPLAY_PAGE = Template(
+    _page(
+        "$title",
+        CAPTION + CONTROLS,
+        _inline("$meshcat"),
+        _inline(REPLAY_DATA_SCRIPT),
+        _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
+    )
+)
+"""The page of a replay, which needs nothing from outside: meshcat and all data go into it."""

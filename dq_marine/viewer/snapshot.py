@@ -1,0 +1,138 @@
+"""What the viewer is told: the shape of a vehicle, and one snapshot of its motion.
+
+Both are plain, frozen data without any drawing library, so that a simulation can record them anywhere.
+World frame: NED (north, east, down). Body frame: forward, starboard, down.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.checks import finite_array, unit_quaternion
+from dq_marine.errors import InvalidInputError
+
+FloatArray = NDArray[np.float64]
+ShapeKind = Literal["open_frame", "torpedo"]
+
+SNAPSHOT_ARRAYS = {
+    "position_ned": 3,
+    "quaternion_body_to_ned": 4,
+    "wrench_body": 6,
+    "current_ned": 3,
+    "goal_position_ned": 3,
+    "goal_quaternion_body_to_ned": 4,
+}
+"""Numbers in each array of a snapshot; the fours are unit quaternions."""
+
+
+@dataclass(frozen=True, eq=False)
+class Snapshot:
+    """Vehicle, water and goal at one instant.
+
+    Arrays are copied, read-only and float64; quaternions are normalised.
+
+    Attributes:
+        time: simulated time [s].
+        position_ned: vehicle origin in the world [m], shape (3,).
+        quaternion_body_to_ned: attitude (w, x, y, z), unit, shape (4,).
+        wrench_body: applied force and moment [X, Y, Z, K, M, N] in body axes [N, N m], shape (6,).
+        current_ned: velocity of the water [m/s], shape (3,).
+        goal_position_ned: where the vehicle should go [m], shape (3,), or None without a goal.
+        goal_quaternion_body_to_ned: the attitude wanted there, shape (4,), or None for any attitude.
+
+    Raises:
+        InvalidInputError: a wrong size, a value that is not finite, or a quaternion that is not unit.
+    """
+
+    time: float
+    position_ned: FloatArray
+    quaternion_body_to_ned: FloatArray
+    wrench_body: FloatArray
+    current_ned: FloatArray
+    goal_position_ned: FloatArray | None = None
+    goal_quaternion_body_to_ned: FloatArray | None = None
+
+    def __post_init__(self) -> None:
+        if not math.isfinite(self.time):
+            raise InvalidInputError(f"time is {self.time}; give a finite simulated time in seconds")
+        for name, size in SNAPSHOT_ARRAYS.items():
+            value = getattr(self, name)
+            if value is None and name.startswith("goal_"):
+                continue
+            checked = unit_quaternion(name, value) if size == 4 else finite_array(name, value, size)
+            _set_read_only(self, name, checked)
+
+
+@dataclass(frozen=True, eq=False)
+class Thruster:
+    """Where a thruster sits and which way it pushes.
+
+    Attributes:
+        position: centre in body axes [m], shape (3,).
+        direction: direction of positive thrust in body axes, shape (3,); any non-zero length.
+
+    Raises:
+        InvalidInputError: a wrong size, a value that is not finite, or a direction of zero length.
+    """
+
+    position: FloatArray
+    direction: FloatArray
+
+    def __post_init__(self) -> None:
+        for name in ("position", "direction"):
+            _set_read_only(self, name, finite_array(f"thruster {name}", getattr(self, name), 3))
+        if not np.linalg.norm(self.direction) > 0.0:
+            raise InvalidInputError(
+                f"thruster direction is {self.direction.tolist()}; give a vector of non-zero length"
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """The outer form of a vehicle: all that is needed to draw it.
+
+    Attributes:
+        length: along body x [m].
+        width: along body y [m].
+        height: along body z [m].
+        thrusters: drawn one by one; may be empty.
+        max_force: force [N] at which the thrust arrow has its full length.
+        kind: `open_frame` (a work-class or inspection ROV) or `torpedo` (an AUV: a body of
+            revolution with fins).
+
+    Raises:
+        InvalidInputError: a dimension or force that is not positive, or an unknown kind.
+    """
+
+    length: float
+    width: float
+    height: float
+    thrusters: tuple[Thruster, ...] = ()
+    max_force: float = 100.0
+    kind: ShapeKind = "open_frame"
+
+    def __post_init__(self) -> None:
+        for name in ("length", "width", "height", "max_force"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise InvalidInputError(f"shape {name} is {value}; give a finite number above 0")
+        if self.kind not in get_args(ShapeKind):
+            raise InvalidInputError(
+                f"shape kind is {self.kind!r}; give one of {', '.join(get_args(ShapeKind))}"
+            )
+
+    @property
+    def size(self) -> float:
+        """The largest dimension [m]."""
+        return max(self.length, self.width, self.height)
+
+
+def _set_read_only(owner: object, name: str, values: FloatArray) -> None:
+    """Set an array field of a frozen dataclass."""
+    values.setflags(write=False)
+    object.__setattr__(owner, name, values)

@@ -1,0 +1,79 @@
+"""A page in a real Chromium, looked into through the DevTools protocol."""
+
+from __future__ import annotations
+
+import json
+import time
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from websockets.sync.client import ClientConnection, connect
+
+from dq_marine.viewer.browser import HeadlessBrowser
+
+DEBUGGING_FLAGS = ("--remote-debugging-port=0", "--remote-allow-origins=*")
+PATIENCE = 30.0
+
+
+class Page:
+    """The page that a browser shows."""
+
+    def __init__(self, connection: ClientConnection) -> None:
+        self._connection = connection
+        self._sent = 0
+
+    def evaluate(self, expression: str) -> Any:
+        """The value of a JavaScript expression; a JavaScript error fails the test."""
+        self._sent += 1
+        parameters = {"expression": expression, "returnByValue": True}
+        message = {"id": self._sent, "method": "Runtime.evaluate", "params": parameters}
+        self._connection.send(json.dumps(message))
+        while True:
+            answer = json.loads(self._connection.recv(timeout=PATIENCE))
+            if answer.get("id") == self._sent:
+                break
+        assert "exceptionDetails" not in answer["result"], answer["result"]["exceptionDetails"]
+        return answer["result"]["result"].get("value")
+
+    def wait_until(self, condition: str) -> None:
+        """Return when a JavaScript condition has become true."""
+        deadline = time.monotonic() + PATIENCE
+        while not self.evaluate(f"Boolean({condition})"):
+            assert time.monotonic() < deadline, f"still not true: {condition}"
+            time.sleep(0.05)
+
+    def node(self, path: str, what: str) -> Any:
+        """A property, as a JavaScript expression, of the three.js object at a meshcat path."""
+        names = json.dumps(path.strip("/").split("/"))
+        return self.evaluate(f"viewer.scene_tree.find({names}).object.{what}")
+
+
+@contextmanager
+def open_page(url: str) -> Iterator[Page]:
+    """Show a page until the end of the block."""
+    browser = HeadlessBrowser(url, 640, 480, extra_flags=DEBUGGING_FLAGS)
+    try:
+        with connect(_debugger_url(browser.profile), max_size=None) as connection:
+            page = Page(connection)
+            page.wait_until("typeof viewer === 'object'")
+            yield page
+    finally:
+        browser.close()
+
+
+def _debugger_url(profile: Path) -> str:
+    """Where the one page of a browser can be debugged."""
+    deadline = time.monotonic() + PATIENCE
+    port_file = profile / "DevToolsActivePort"
+    while time.monotonic() < deadline:
+        if port_file.exists() and (lines := port_file.read_text().split()):
+            with urllib.request.urlopen(f"http://127.0.0.1:{lines[0]}/json", timeout=PATIENCE) as reply:
+                targets = json.load(reply)
+            pages = [target for target in targets if target["type"] == "page"]
+            if pages:
+                return str(pages[0]["webSocketDebuggerUrl"])
+        time.sleep(0.05)
+    raise TimeoutError("the browser shows no page that can be debugged")

@@ -1,0 +1,172 @@
+"""The server can be reached from this computer only, and never outlives its parent."""
+
+from __future__ import annotations
+
+import gc
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from urllib.parse import urlsplit
+
+import pytest
+from viewer.processes import alive, listening_addresses, wait_for_end
+from viewer.samples import ROV, snapshot
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+
+from dq_marine.viewer import LiveViewer, ViewerError
+from dq_marine.viewer.server_process import ServerProcess
+
+LOOPBACK_IN_PROC = "0100007F"
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[ServerProcess]:
+    running = ServerProcess()
+    yield running
+    running.close()
+
+
+def port_of(server: ServerProcess) -> int:
+    port = urlsplit(server.web_url).port
+    assert port is not None
+    return port
+
+
+def status(server: ServerProcess, host: str) -> int:
+    """The HTTP status of the live page, asked for under a host name."""
+    request = urllib.request.Request(server.web_url, headers={"Host": host})
+    try:
+        with urllib.request.urlopen(request, timeout=10) as reply:
+            return int(reply.status)
+    except urllib.error.HTTPError as error:
+        error.close()
+        return error.code
+
+
+def test_listens_on_loopback_only(server: ServerProcess) -> None:
+    addresses = listening_addresses(server.pid)
+    assert len(addresses) == 2, "one door for ZeroMQ, one for web pages"
+    assert set(addresses) == {LOOPBACK_IN_PROC}
+
+
+def test_page_is_served_under_loopback_names_only(server: ServerProcess) -> None:
+    port = port_of(server)
+    assert status(server, f"127.0.0.1:{port}") == 200
+    assert status(server, f"localhost:{port}") == 200
+    assert status(server, f"evil.example:{port}") == 404
+    assert status(server, f"127.0.0.1.evil.example:{port}") == 404
+
+
+def test_websocket_is_refused_to_foreign_hosts_and_origins(server: ServerProcess) -> None:
+    port = port_of(server)
+    with connect(f"ws://127.0.0.1:{port}/", origin=f"http://127.0.0.1:{port}"):
+        pass
+    for foreign in ("http://evil.example", "null", f"http://127.0.0.1:{port + 1}"):
+        with pytest.raises(InvalidStatus, match="403"), connect(f"ws://127.0.0.1:{port}/", origin=foreign):
+            pass
+    # A rebound name: the browser believes that it talks to evil.example, origin and host agree.
+    rebound = socket.create_connection(("127.0.0.1", port))
+    with (
+        pytest.raises(InvalidStatus, match="404"),
+        connect(f"ws://evil.example:{port}/", sock=rebound, origin=f"http://evil.example:{port}"),
+    ):
+        pass
+
+
+def test_servers_stand_side_by_side(server: ServerProcess) -> None:
+    other = ServerProcess()
+    assert other.web_url != server.web_url
+    other.close()
+    assert status(server, f"127.0.0.1:{port_of(server)}") == 200
+
+
+def test_close_ends_the_server_and_may_be_repeated() -> None:
+    viewer = LiveViewer(ROV)
+    pid = viewer._server.pid
+    assert alive(pid)
+    viewer.close()
+    viewer.close()
+    assert not alive(pid)
+    with pytest.raises(ViewerError, match="closed"):
+        viewer.draw(snapshot())
+
+
+def test_a_forgotten_viewer_ends_its_server() -> None:
+    viewer = LiveViewer(ROV)
+    pid = viewer._server.pid
+    del viewer
+    gc.collect()
+    assert not alive(pid)
+
+
+@pytest.mark.parametrize("end", ["sys.exit()", "os.kill(os.getpid(), signal.SIGKILL)"])
+def test_server_ends_with_its_parent(end: str) -> None:
+    script = (
+        "import os, signal, sys\n"
+        "from dq_marine.viewer.server_process import ServerProcess\n"
+        "server = ServerProcess()\n"
+        "print(server.pid, flush=True)\n"
+        f"{end}\n"
+    )
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert wait_for_end(int(result.stdout))
+    assert result.stderr == ""
+
+
+def test_a_server_that_has_gone_is_noticed_soon() -> None:
+    viewer = LiveViewer(ROV)
+    os.kill(viewer._server.pid, signal.SIGKILL)
+    started = time.monotonic()
+    with pytest.raises(ViewerError, match="has ended"):
+        viewer.draw(snapshot())
+    assert time.monotonic() - started < 5.0
+    viewer.close()
+
+
+def test_a_silent_server_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("dq_marine.viewer.server_process.REPLY_TIMEOUT", 0.5)
+    viewer = LiveViewer(ROV)
+    pid = viewer._server.pid
+    os.kill(pid, signal.SIGSTOP)
+    with pytest.raises(ViewerError, match=r"no answer .* within 0.5 s"):
+        viewer.draw(snapshot())
+    assert not alive(pid)
+
+
+def test_an_interrupted_wait_does_not_spoil_the_next_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with LiveViewer(ROV) as viewer:
+        viewer.draw(snapshot())
+        with monkeypatch.context() as patch:
+            patch.setattr(type(viewer._server._socket), "poll", interrupt)
+            with pytest.raises(KeyboardInterrupt):
+                viewer.draw(snapshot(time=1.0))
+        viewer.draw(snapshot(time=2.0))
+
+
+def test_nothing_is_printed(capfd: pytest.CaptureFixture[str]) -> None:
+    with LiveViewer(ROV) as viewer:
+        viewer.draw(snapshot())
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(("display", "opened"), [("", False), (":0", True)])
+def test_browser_opens_only_where_a_display_is(
+    display: str, opened: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+    monkeypatch.setattr("webbrowser.open", asked.append)
+    monkeypatch.setattr("sys.platform", "linux")
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    monkeypatch.setenv("DISPLAY", display)
+    with LiveViewer(ROV, open_browser=True) as viewer:
+        assert asked == ([viewer.url] if opened else [])
