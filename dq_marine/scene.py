@@ -9,30 +9,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.assembly import Assembly
 from dq_marine.checks import finite_array, finite_number
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.composed import STAGES, ComposedTiming, make_composed
-from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
-from dq_marine.kernel.midpoint_drift import midpoint_drift, midpoint_rescue
-from dq_marine.kernel.paper_drift import paper_drift, paper_rescue
+from dq_marine.kernel.dual_quaternion import pose_from_parts
+from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import Composition, StepParameters
-from dq_marine.kernel.strang import make_strang
-from dq_marine.terms import (
-    DampingTerm,
-    ForceTerm,
-    inertia_term,
-    nested_parameters,
-    restoring_terms,
-    strang_timing,
-    vector3,
-)
+from dq_marine.terms import DampingTerm, ForceTerm, restoring_terms
 from dq_marine.vehicles import Vehicle, load_vehicle
 
 if TYPE_CHECKING:
     from dq_marine.engines.one_body import OneBody
 
-DRIFTS = {"midpoint": (midpoint_drift, midpoint_rescue), "paper": (paper_drift, paper_rescue)}
-"""Schemes by name: the drift, and its rescue."""
+KICKS = ("l_stable", "implicit_node")
+"""How damping is taken in, by name."""
 
 NEUTRAL_TOLERANCE = 1e-9
 """Net weight over weight, and righting arm over the vehicle's length, below which a term counts as absent."""
@@ -47,10 +37,9 @@ class Scene:
     Attributes:
         vehicle: the validated vehicle.
         current_ned: velocity of the water [m/s], shape (3,).
-        scheme: name of the drift.
         step: step size h [s].
-        order: of the method.
-        terms: names of what the step computes besides inertia and the control wrench.
+        kick: how damping is taken in.
+        forces: of the user's own.
     """
 
     def __init__(
@@ -61,15 +50,19 @@ class Scene:
         scheme: str = "midpoint",
         step: float = 0.02,
         order: int = 2,
+        kick: str = "l_stable",
+        forces: Sequence[ForceTerm] = (),
     ) -> None:
         """Check and compose the scene.
 
         Args:
             vehicle: a catalogue name, the path of a TOML file, or a `Vehicle`.
             current: velocity of the water in NED, shape (3,) [m/s].
-            scheme: one of `DRIFTS`.
-            step: step size h [s]; negative runs time backwards, in an undamped scene.
-            order: of the method, 2, or 4, 6 or 8 in an undamped scene.
+            scheme: the drift: "midpoint", or "paper" for that of Xu & Halse.
+            step: step size h [s]; negative runs time backwards, in a scene that takes no energy.
+            order: of the method: 2 or 4, and 6 or 8 in a scene that takes no energy.
+            kick: "l_stable", or "implicit_node", which is more accurate under mild damping and rings under stiff.
+            forces: of your own, see `dq_marine.terms.ForceTerm`.
 
         Raises:
             InvalidInputError: a value is wrong, or the step is too large for the vehicle's restoring forces.
@@ -77,47 +70,64 @@ class Scene:
         """
         self.vehicle = load_vehicle(vehicle)
         self.current_ned = finite_array("current", current, 3)
-        if scheme not in DRIFTS:
-            raise InvalidInputError(f"scheme = {scheme!r} is unknown; give one of {sorted(DRIFTS)}")
-        self.scheme = scheme
         self.step = finite_number("step", step)
-        self.order = order
+        if kick not in KICKS:
+            raise InvalidInputError(f"kick = {kick!r} is unknown; give one of {list(KICKS)}")
+        self.kick = kick
+        self.forces = tuple(checked_force(force) for force in forces)
         self._check_restoring_step()
-        self._restoring = self._restoring_terms()
-        self._damping = DampingTerm(
-            self.vehicle.linear_damping, self.vehicle.quadratic_damping, self.vehicle.mass_matrix
+        mass_matrix = self.vehicle.mass_matrix
+        damping = DampingTerm(
+            self.vehicle.linear_damping, self.vehicle.quadratic_damping, mass_matrix, kick == "l_stable"
         )
-        self._check_method()
-        self._inertia = inertia_term(self.vehicle.mass_matrix)
-        names = [*(term.name for term in self._restoring), self._damping.name]
-        self.terms = tuple(filter(None, [*names, "current" if self._has_current else ""]))
-        drift, rescue = DRIFTS[scheme]
-        self.composition = Composition(
-            method=make_strang if self.order == 2 else make_composed,
-            forces=tuple(term.function for term in self._restoring),
-            kick=self._damping.kick,
-            drift=drift,
-            rescue=rescue,
-            water=MOVING_WATER if self._has_current else STILL_WATER,
-        )
+        present = (*self._restoring_terms(), *self.forces)
+        self._assembly = Assembly(mass_matrix, present, damping, self.current_ned, scheme, order)
+        self._check_direction_of_time()
 
     def __repr__(self) -> str:
         current = self.current_ned.tolist()
         terms = ", ".join(self.terms) or "nothing"
         return (
-            f"Scene({self.vehicle.name!r}, current={current}, scheme={self.scheme!r}, step={self.step:g}; "
-            f"computes {terms})"
+            f"Scene({self.vehicle.name!r}, current={current}, scheme={self.scheme!r}, step={self.step:g}, "
+            f"order={self.order}, kick={self.kick!r}; computes {terms})"
         )
 
     def __reduce__(self) -> Any:
         """Travel as the arguments: a composition's functions are made anew where the scene arrives."""
-        return _rebuild, (
-            self.vehicle,
-            self.current_ned.tolist(),
-            self.scheme,
-            self.step,
-            self.order,
-        )
+        arguments = {
+            "vehicle": self.vehicle,
+            "current": self.current_ned.tolist(),
+            "scheme": self.scheme,
+            "step": self.step,
+            "order": self.order,
+            "kick": self.kick,
+            "forces": self.forces,
+        }
+        return _rebuild, (arguments,)
+
+    @property
+    def scheme(self) -> str:
+        """Name of the drift."""
+        return self._assembly.scheme
+
+    @property
+    def order(self) -> int:
+        """Order of the method."""
+        return self._assembly.order
+
+    @property
+    def terms(self) -> tuple[str, ...]:
+        """Names of what the step computes besides inertia and the control wrench."""
+        return self._assembly.terms
+
+    @property
+    def composition(self) -> Composition:
+        """The functions of the step."""
+        return self._assembly.composition
+
+    def parameters_at(self, step: float) -> StepParameters:
+        """Return the numbers of the step for a step size [s]."""
+        return self._assembly.parameters_at(step)
 
     def stepper(self) -> OneBody:
         """Return a body at rest at the world's origin, with the step compiled for this scene."""
@@ -142,25 +152,6 @@ class Scene:
         squares = np.sort(np.linalg.eigvals(compliance @ stiffness).real)
         return np.sqrt(np.maximum(squares[1:], 0.0))
 
-    def parameters_at(self, step: float) -> StepParameters:
-        """Return the numbers of this scene's step for a step size [s]."""
-        return StepParameters(
-            inertia=self._inertia,
-            forces=nested_parameters(self._restoring),
-            water=UniformCurrent(vector3(self.current_ned)) if self._has_current else (),
-            timing=self._timing(step),
-        )
-
-    def _timing(self, step: float) -> Any:
-        """Return what the method needs to know of a step size."""
-        if self.order == 2:
-            return strang_timing(step, self._damping)
-        return ComposedTiming(tuple(step * stage for stage in STAGES[self.order]))
-
-    @property
-    def _has_current(self) -> bool:
-        return bool(self.current_ned.any())
-
     def _restoring_terms(self) -> tuple[ForceTerm, ...]:
         """Return the restoring forces, without those that are zero but for round-off."""
         vehicle = self.vehicle
@@ -171,23 +162,15 @@ class Scene:
             arm = np.zeros(3)
         return restoring_terms(excess, arm)
 
-    def _check_method(self) -> None:
-        """Negative steps, and the negative stages of high orders, undo damping unstably."""
+    def _check_direction_of_time(self) -> None:
         if self.step == 0.0:
-            raise InvalidInputError("step = 0 s; give a positive step, or a negative one to run time backwards")
-        if self.order not in (2, *STAGES):
-            raise InvalidInputError(f"order = {self.order!r}; give one of {[2, *STAGES]}")
-        if not self._damping.name:
-            return
-        if self.step < 0.0:
             raise InvalidInputError(
-                f"step = {self.step:g} s, but the vehicle has {self._damping.name}, which cannot be undone; give a "
-                "positive step, or a vehicle without damping"
+                "step = 0 s; give a positive step, or a negative one to run time backwards"
             )
-        if self.order != 2:
+        if self.step < 0.0 and self._assembly.dissipation:
             raise InvalidInputError(
-                f"order = {self.order}, but the vehicle has {self._damping.name}: orders above 2 take negative "
-                "stages, which cannot undo it; give order 2, or a vehicle without damping"
+                f"step = {self.step:g} s, but there is {self._assembly.dissipation}, which cannot be undone; give a "
+                "positive step, or leave it out"
             )
 
     def _check_restoring_step(self) -> None:
@@ -201,5 +184,31 @@ class Scene:
             )
 
 
-def _rebuild(vehicle: Vehicle, current: list[float], scheme: str, step: float, order: int) -> Scene:
-    return Scene(vehicle, current=current, scheme=scheme, step=step, order=order)
+def checked_force(force: ForceTerm) -> ForceTerm:
+    """Return the force if it gives a finite wrench for a body at rest.
+
+    Raises:
+        InvalidInputError: it is no `ForceTerm`, or its function does not take or return what it should.
+    """
+    if not isinstance(force, ForceTerm):
+        raise InvalidInputError(
+            f"forces has {force!r}; give dq_marine.terms.ForceTerm(name, function, parameters)"
+        )
+    pose = pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    rest = Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    arguments = (pose, rest, 0.0) if force.uses_velocity else (pose, 0.0)
+    try:
+        wrench = force.function(force.parameters, *arguments)
+        finite = bool(np.isfinite([*wrench.angular, *wrench.linear]).all())
+    except Exception as error:
+        raise InvalidInputError(
+            f"force {force.name!r} cannot be evaluated at rest: {type(error).__name__}: {error}; its function takes "
+            f"(parameters, pose, {'twist, ' if force.uses_velocity else ''}time) and returns Spatial(moment, force)"
+        ) from error
+    if not finite:
+        raise InvalidInputError(f"force {force.name!r} gives {wrench} at rest; it must be finite")
+    return force
+
+
+def _rebuild(arguments: dict[str, Any]) -> Scene:
+    return Scene(**arguments)

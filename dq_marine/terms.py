@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,9 +13,12 @@ from dq_marine.kernel.inertia import Inertia
 from dq_marine.kernel.kick import (
     Kick,
     LinearKick,
+    NodeKick,
     QuadraticKick,
     UndampedKick,
+    diagonal_node_kick,
     diagonal_quadratic_kick,
+    full_node_kick,
     full_quadratic_kick,
     linear_kick,
     undamped_kick,
@@ -22,7 +26,6 @@ from dq_marine.kernel.kick import (
 from dq_marine.kernel.matrix3 import Matrix3
 from dq_marine.kernel.restoring import NetWeight, RightingMoment, net_weight, righting_moment
 from dq_marine.kernel.spatial import Matrix6, Spatial
-from dq_marine.kernel.step import PoseForce
 from dq_marine.kernel.strang import StrangTiming
 from dq_marine.kernel.vector3 import Vector3
 
@@ -30,11 +33,21 @@ Array = NDArray[np.float64]
 
 
 class ForceTerm(NamedTuple):
-    """A pose-dependent force that a scene has: what it is called, its function and its parameters."""
+    """A force that a scene has.
+
+    Attributes:
+        name: what it is called.
+        function: a plain function, compiled with the step, `(parameters, pose, time) -> Spatial`, or with
+            `uses_velocity` `(parameters, pose, twist, time) -> Spatial`; see `dq_marine.kernel.forces`. It is found by
+            its names: functions that it calls are imported by name, not through their module.
+        parameters: nested tuples of floats, handed to the function.
+        uses_velocity: whether it depends on the velocity.
+    """
 
     name: str
-    function: PoseForce
+    function: Callable[..., Spatial]
     parameters: Any
+    uses_velocity: bool = False
 
 
 def vector3(a: NDArray[Any]) -> Vector3:
@@ -96,11 +109,15 @@ def nested_parameters(terms: tuple[ForceTerm, ...]) -> Any:
 
 
 class DampingTerm(NamedTuple):
-    """Linear damping matrix (6, 6) and quadratic coefficients (6,) in Fossen's order, with the M they act on."""
+    """Linear damping matrix (6, 6) and quadratic coefficients (6,) in Fossen's order, with the M they act on.
+
+    `l_stable` chooses between the default kick and the implicit-node one.
+    """
 
     linear: Array
     quadratic: Array
     mass_matrix: Array
+    l_stable: bool = True
 
     @property
     def name(self) -> str:
@@ -112,24 +129,41 @@ class DampingTerm(NamedTuple):
     @property
     def kick(self) -> Kick:
         """The cheapest kick that has all of this damping."""
+        if not self.name:
+            return undamped_kick
+        if not self.l_stable:
+            return diagonal_node_kick if self._is_diagonal else full_node_kick
         if self.quadratic.any():
             return diagonal_quadratic_kick if self._is_diagonal else full_quadratic_kick
-        return linear_kick if self.linear.any() else undamped_kick
+        return linear_kick
 
-    def kick_parameters(self, duration: float) -> UndampedKick | LinearKick | QuadraticKick:
-        """Return the parameters of `kick` over a duration [s]."""
-        if self.quadratic.any():
-            coefficients = spatial(self.quadratic)
-            if self._is_diagonal:
-                return QuadraticKick(
-                    duration, DiagonalDamping(spatial(np.diag(self.linear).copy()), coefficients)
-                )
-            return QuadraticKick(duration, FullDamping(matrix6(angular_first(self.linear)), coefficients))
-        return self._linear_kick(duration) if self.linear.any() else UndampedKick(duration)
+    def timing(self, step: float) -> StrangTiming:
+        """Return what Strang's method needs to know of a step size [s]."""
+        half = 0.5 * step
+        if self.name and not self.l_stable:
+            opening, closing, between = ((0.0, half), (half, 0.0), (half, half))
+            return StrangTiming(
+                step, *(NodeKick(*durations, self._matrices) for durations in (opening, closing, between))
+            )
+        return StrangTiming(
+            step, self._kick_parameters(half), self._kick_parameters(half), self._kick_parameters(step)
+        )
 
     @property
     def _is_diagonal(self) -> bool:
         return not (self.linear - np.diag(np.diag(self.linear))).any()
+
+    @property
+    def _matrices(self) -> DiagonalDamping | FullDamping:
+        coefficients = spatial(self.quadratic)
+        if self._is_diagonal:
+            return DiagonalDamping(spatial(np.diag(self.linear).copy()), coefficients)
+        return FullDamping(matrix6(angular_first(self.linear)), coefficients)
+
+    def _kick_parameters(self, duration: float) -> UndampedKick | LinearKick | QuadraticKick:
+        if self.quadratic.any():
+            return QuadraticKick(duration, self._matrices)
+        return self._linear_kick(duration) if self.linear.any() else UndampedKick(duration)
 
     def _linear_kick(self, h: float) -> LinearKick:
         """Prepare (K2)-(K3) of `kernel.kick` for a constant D.
@@ -140,8 +174,3 @@ class DampingTerm(NamedTuple):
         one = np.eye(6)
         propagator = np.linalg.inv(one + hx + 0.5 * hx @ hx)
         return LinearKick(matrix6(propagator), matrix6(h * propagator @ (one + 0.5 * hx)))
-
-
-def strang_timing(step: float, damping: DampingTerm) -> StrangTiming:
-    """Return what Strang's method needs to know of a step size [s]."""
-    return StrangTiming(step, damping.kick_parameters(0.5 * step), damping.kick_parameters(step))

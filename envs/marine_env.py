@@ -166,6 +166,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             command,
             episode.observation,
             episode.measures,
+            episode.periods * self.control_period,
             self.substeps,
         )
         if status == ACTION_NOT_FINITE:

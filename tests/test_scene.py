@@ -56,7 +56,7 @@ ZERO6 = (0.0,) * 6
 def test_a_scene_computes_what_it_has(vehicle, current, terms):
     scene = Scene(vehicle, current=current)
     assert scene.terms == terms
-    assert len(scene.composition.forces) == sum("weight" in t or "moment" in t for t in terms)
+    assert len(scene.composition.pose_forces) == sum("weight" in t or "moment" in t for t in terms)
     assert all(term in repr(scene) for term in terms)
     body = scene.stepper()
     body.step((1.0, 0.0, 0.0, 0.0, 0.0, 0.0), 3)

@@ -28,8 +28,8 @@ def compiled_control_period(
 ) -> Callable[..., Any]:
     """Compile one control period on arrays.
 
-    The compiled function takes (parameters, aim, state, memory, action, observation, measures, steps), all
-    arrays float64 but the observation, float32. It saturates the action at -1 and 1, in place, or returns the
+    The compiled function takes (parameters, aim, state, memory, action, observation, measures, time, steps),
+    all arrays float64 but the observation, float32. It saturates the action at -1 and 1, in place, or returns the
     status ACTION_NOT_FINITE for a NaN or an infinity. If the status is ACCEPTED it has changed state, memory,
     observation and measures; else none of them. It returns (status, completed, rescued, residual_squared,
     reward, terminated).
@@ -48,6 +48,7 @@ def compiled_control_period(
         action: Any,
         observation: Any,
         measures: Any,
+        time: float,
         steps: int,
     ) -> Any:
         for axis in range(6):
@@ -56,7 +57,13 @@ def compiled_control_period(
             action[axis] = max(-1.0, min(1.0, action[axis]))
         command = (action[0], action[1], action[2], action[3], action[4], action[5])
         outcome = control_period(
-            load_parameters(parameters), load_aim(aim), load_state(state), load_memory(memory), command, steps
+            load_parameters(parameters),
+            load_aim(aim),
+            load_state(state),
+            load_memory(memory),
+            command,
+            time,
+            steps,
         )
         step, verdict = outcome.step, outcome.verdict
         if step.status != ACCEPTED:

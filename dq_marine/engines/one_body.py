@@ -120,7 +120,9 @@ class OneBody:
         """
         wrench = finite_array("wrench_body", wrench_body, 6)
         count = positive_integer("steps", steps)
-        status, completed, iterations, rescued, residual_squared = self._advance(self._numbers, self._state, wrench, count)
+        status, completed, iterations, rescued, residual_squared = self._advance(
+            self._numbers, self._state, wrench, self.time, count
+        )
         if status != ACCEPTED:
             raise self._refusal(status, completed, wrench, residual_squared)
         self.steps_taken += count
@@ -148,7 +150,7 @@ class OneBody:
         while fraction >= SMALLEST_FRACTION:
             parameters = self._parameters_at(self.step_size * fraction)
             try:
-                outcome = advance(parameters, self.state, force, min(int(steps / fraction), 64))
+                outcome = advance(parameters, self.state, force, self.time, min(int(steps / fraction), 64))
                 if outcome.status == ACCEPTED:
                     return self.step_size * fraction
             except (OverflowError, ZeroDivisionError):
@@ -231,7 +233,7 @@ def place_body(
 
 @functools.cache
 def compiled_advance(composition: Composition, layout: types.Type) -> Callable[..., Any]:
-    """Compile (parameters, state, wrench, steps) -> (status, completed, iterations, rescued, residual_squared).
+    """Compile (parameters, state, wrench, time, steps) -> (status, completed, iterations, rescued, residual_squared).
 
     All arrays float64: `parameters` packed from the `StepParameters` of `layout`, `state` (14,) changed in
     place and only if the status is ACCEPTED, `wrench` (6,) in Fossen's order.
@@ -240,9 +242,9 @@ def compiled_advance(composition: Composition, layout: types.Type) -> Callable[.
     load_parameters = make_load(layout)
     load_state = make_load(structure_type(AT_REST))
 
-    def advance_arrays(parameters: Any, state: Any, wrench: Any, steps: int) -> Any:
+    def advance_arrays(parameters: Any, state: Any, wrench: Any, time: float, steps: int) -> Any:
         force = from_fossen((wrench[0], wrench[1], wrench[2], wrench[3], wrench[4], wrench[5]))
-        outcome = advance(load_parameters(parameters), load_state(state), force, steps)
+        outcome = advance(load_parameters(parameters), load_state(state), force, time, steps)
         if outcome.status == ACCEPTED:
             store(state, outcome.state)
         return (

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from dq_marine.kernel.body import BodyState
 from dq_marine.kernel.drift_report import drift_accepted
+from dq_marine.kernel.forces import join_pose_forces
 from dq_marine.kernel.spatial import Spatial, spatial_add_scaled
 from dq_marine.kernel.step import (
     Advance,
@@ -18,7 +19,6 @@ from dq_marine.kernel.step import (
     StepOutcome,
     StepParameters,
     arrival,
-    join_forces,
     make_flight,
     refusal,
 )
@@ -71,17 +71,20 @@ class ComposedTiming(NamedTuple):
 
 
 def make_composed(composition: Composition) -> Advance:
-    """Return the advance of a symmetric composition; the scene must be undamped.
+    """Return the advance of a symmetric composition; the scene must have neither damping nor velocity forces.
 
     Between stages, and between steps, the half kicks that share a pose are taken together.
     """
-    add_forces = join_forces(composition.forces)
+    add_forces = join_pose_forces(composition.pose_forces)
     fly = make_flight(composition)
 
-    def composed(parameters: StepParameters, state: BodyState, wrench: Spatial, steps: int) -> StepOutcome:
+    def composed(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
         stages = parameters.timing.stages
         pose = state.pose
-        force = add_forces(parameters.forces, pose, wrench)
+        node = time
+        force = add_forces(parameters.forces[0], pose, node, wrench)
         momentum = spatial_add_scaled(state.momentum, 0.5 * stages[0], force)
         iterations = 0
         rescued = 0
@@ -97,7 +100,8 @@ def make_composed(composition: Composition) -> Advance:
                 pose = flown.pose
                 last = stage == len(stages) - 1
                 following = 0.0 if last and completed == steps - 1 else stages[0 if last else stage + 1]
-                force = add_forces(parameters.forces, pose, wrench)
+                node += stages[stage]
+                force = add_forces(parameters.forces[0], pose, node, wrench)
                 duration = 0.5 * (stages[stage] + following)
                 momentum = spatial_add_scaled(flown.momentum, duration, force)
         return arrival(state, pose, momentum, steps, iterations, rescued, worst)

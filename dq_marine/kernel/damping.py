@@ -1,7 +1,7 @@
 """Damping matrices D(chi) = linear + diag(quadratic |chi|), diagonal or full, and what a kick does with them.
 
 A diagonal D is held as the spatial vector of its diagonal and a full one as a 6x6 matrix. Each kind offers
-the same four operations under `DampingAlgebra`, so that one kick serves both and the diagonal one never
+the same five operations under `DampingAlgebra`, so that one kick serves both and the diagonal one never
 multiplies by zeros.
 """
 
@@ -42,11 +42,12 @@ class FullDamping(NamedTuple):
 class DampingAlgebra(NamedTuple):
     """The operations on one kind of damping matrix.
 
-    at(damping, twist) is D(chi); apply(D, chi) is D chi; add_scaled(m, s, D) is m + s D for a 6x6 m;
+    at(damping, twist) is D(chi); slope(damping, twist) is the derivative of D(chi) chi; apply(D, chi) is D chi; add_scaled(m, s, D) is m + s D for a 6x6 m;
     sandwich(D, m) is D m D.
     """
 
     at: Callable[..., Any]
+    slope: Callable[..., Any]
     apply: Callable[..., Any]
     add_scaled: Callable[..., Any]
     sandwich: Callable[..., Any]
@@ -57,6 +58,11 @@ def diagonal_at(damping: DiagonalDamping, twist: Spatial) -> Spatial:
     return spatial_add(
         damping.linear, spatial_multiply_elementwise(damping.quadratic, spatial_absolute(twist))
     )
+
+
+def diagonal_slope(damping: DiagonalDamping, twist: Spatial) -> Spatial:
+    """Return the diagonal of d(D(chi) chi)/dchi = linear + 2 quadratic |chi|."""
+    return diagonal_at(DiagonalDamping(damping.linear, spatial_scale(2.0, damping.quadratic)), twist)
 
 
 def diagonal_add_scaled(m: Matrix6, s: float, d: Spatial) -> Matrix6:
@@ -76,10 +82,27 @@ def full_at(damping: FullDamping, twist: Spatial) -> Matrix6:
     )
 
 
+def full_slope(damping: FullDamping, twist: Spatial) -> Matrix6:
+    """Return d(D(chi) chi)/dchi."""
+    return full_at(FullDamping(damping.linear, spatial_scale(2.0, damping.quadratic)), twist)
+
+
 def full_sandwich(d: Matrix6, m: Matrix6) -> Matrix6:
     """Return d m d."""
     return matrix6_multiply(d, matrix6_multiply(m, d))
 
 
-DIAGONAL = DampingAlgebra(diagonal_at, spatial_multiply_elementwise, diagonal_add_scaled, diagonal_sandwich)
-FULL = DampingAlgebra(full_at, matrix6_transform, matrix6_add_scaled, full_sandwich)
+DIAGONAL = DampingAlgebra(
+    at=diagonal_at,
+    slope=diagonal_slope,
+    apply=spatial_multiply_elementwise,
+    add_scaled=diagonal_add_scaled,
+    sandwich=diagonal_sandwich,
+)
+FULL = DampingAlgebra(
+    at=full_at,
+    slope=full_slope,
+    apply=matrix6_transform,
+    add_scaled=matrix6_add_scaled,
+    sandwich=full_sandwich,
+)

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.kernel.drift_report import (
     ACCEPTED_RESIDUAL,
-    CONVERGED_RESIDUAL,
     CONTINUED,
+    CONVERGED_RESIDUAL,
     DAMPED,
     DIRECT,
     SPLIT,
@@ -92,9 +92,7 @@ def make_damped_newton(scheme: DriftScheme) -> Solve:
     """Return (inertia, guess, a, b) -> (equation, report): Newton's method whose steps are halved until they help."""
     equation_at, jacobian_at = scheme.equation, scheme.jacobian
 
-    def damped_newton(
-        inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3
-    ) -> tuple[Any, DriftReport]:
+    def damped_newton(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
         equation = equation_at(inertia, guess, a, b)
         on_rest_branch = False
         iterations = 0
@@ -129,9 +127,7 @@ def make_continuation(scheme: DriftScheme) -> Solve:
     """
     newton = make_newton(scheme)
 
-    def continuation(
-        inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3
-    ) -> tuple[Any, DriftReport]:
+    def continuation(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
         reached = 0.0
         stride = 0.25
         start = scale(stride, guess)
@@ -153,9 +149,7 @@ def make_continuation(scheme: DriftScheme) -> Solve:
             target = min(reached + stride, 1.0)
             equation, report = newton(inertia, start, scale(target, a), scale(target, b))
         accepted = reached >= 1.0 and report.on_rest_branch
-        return equation, DriftReport(
-            equation.relative_residual_squared, accepted, iterations, CONTINUED
-        )
+        return equation, DriftReport(equation.relative_residual_squared, accepted, iterations, CONTINUED)
 
     return continuation
 

@@ -117,9 +117,7 @@ def paper_transport(at: PaperEquation, a: Vector3) -> Spatial:
     part is 2 (c Psi - f0 Phi + Phi x Psi).
     """
     q = (at.c, at.phi[0], at.phi[1], at.phi[2])
-    displacement = scale(
-        2.0, add(add_scaled(scale(at.c, at.psi), -at.f0, at.phi), cross(at.phi, at.psi))
-    )
+    displacement = scale(2.0, add(add_scaled(scale(at.c, at.psi), -at.f0, at.phi), cross(at.phi, at.psi)))
     b = turn(at.c, at.phi, at.zb)
     return Spatial(rotate_inverse(q, subtract(a, cross(displacement, b))), rotate_inverse(q, b))
 

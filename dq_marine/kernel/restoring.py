@@ -27,11 +27,11 @@ class RightingMoment(NamedTuple):
     arm: Vector3
 
 
-def net_weight(term: NetWeight, pose: DualQuaternion) -> Spatial:
+def net_weight(term: NetWeight, pose: DualQuaternion, time: float) -> Spatial:
     """Return the wrench (W - B) d, d the body-frame direction of down, acting at the body origin."""
     return Spatial((0.0, 0.0, 0.0), scale(term.force, world_down_in_body(pose.real)))
 
 
-def righting_moment(term: RightingMoment, pose: DualQuaternion) -> Spatial:
+def righting_moment(term: RightingMoment, pose: DualQuaternion, time: float) -> Spatial:
     """Return the moment (W r_G - B r_B) x d, d the body-frame direction of down."""
     return Spatial(cross(term.arm, world_down_in_body(pose.real)), (0.0, 0.0, 0.0))

@@ -17,6 +17,7 @@ from dq_marine.kernel.current import Water
 from dq_marine.kernel.drift import Drift
 from dq_marine.kernel.drift_report import DriftReport, drift_accepted
 from dq_marine.kernel.dual_quaternion import DualQuaternion, pose_position
+from dq_marine.kernel.forces import PoseForce, VelocityForce
 from dq_marine.kernel.inertia import Inertia, twist_from_momentum
 from dq_marine.kernel.kick import Kick
 from dq_marine.kernel.spatial import Spatial, spatial_add
@@ -26,8 +27,6 @@ NOT_CONVERGED = 1
 WRONG_BRANCH = 2
 NOT_FINITE = 3
 
-PoseForce: TypeAlias = Callable[[Any, DualQuaternion], Spatial]
-
 
 @dataclass(frozen=True)
 class Composition:
@@ -35,7 +34,8 @@ class Composition:
 
     Attributes:
         method: (composition) -> advance; the order of drifts and kicks.
-        forces: wrenches that depend on the pose, each (parameters, pose) -> wrench.
+        pose_forces: wrenches that depend on pose and time.
+        velocity_forces: wrenches that depend on velocity too, apart from damping.
         kick: momentum change at frozen pose, (parameters, inertia, momentum, wrench) -> momentum.
         drift: force-free motion, (inertia, h, pose, momentum) -> (pose, momentum, report).
         rescue: the same for a step that `drift` does not solve.
@@ -43,7 +43,8 @@ class Composition:
     """
 
     method: Callable[[Composition], Advance]
-    forces: tuple[PoseForce, ...]
+    pose_forces: tuple[PoseForce, ...]
+    velocity_forces: tuple[VelocityForce, ...]
     kick: Kick
     drift: Drift
     rescue: Drift
@@ -55,7 +56,8 @@ class StepParameters(NamedTuple):
 
     Attributes:
         inertia: M and its inverses.
-        forces: the parameters of `Composition.forces`, nested in pairs (first, (second, (..., ()))).
+        forces: the parameters of the composition's pose forces and of its velocity forces, as a pair, each nested in
+            pairs (first, (second, (..., ()))).
         water: parameters of `Composition.water`.
         timing: what depends on the step size, as the method wants it.
     """
@@ -94,28 +96,11 @@ def is_finite(pose: DualQuaternion, momentum: Spatial) -> bool:
     return total - total == 0.0
 
 
-def no_force(parameters: Any, pose: DualQuaternion, wrench: Spatial) -> Spatial:
-    """Return the wrench as it is."""
-    return wrench
-
-
-def join_forces(forces: tuple[PoseForce, ...]) -> Callable[[Any, DualQuaternion, Spatial], Spatial]:
-    """Return (parameters, pose, wrench) -> wrench + the sum of all forces."""
-    if not forces:
-        return no_force
-    first, rest = forces[0], join_forces(forces[1:])
-
-    def add_forces(parameters: Any, pose: DualQuaternion, wrench: Spatial) -> Spatial:
-        return rest(parameters[1], pose, spatial_add(wrench, first(parameters[0], pose)))
-
-    return add_forces
-
-
-Advance: TypeAlias = Callable[[StepParameters, BodyState, Spatial, int], StepOutcome]
+Advance: TypeAlias = Callable[[StepParameters, BodyState, Spatial, float, int], StepOutcome]
 
 
 def make_advance(composition: Composition) -> Advance:
-    """Return (parameters, state, wrench, steps) -> outcome: `steps` steps under a constant body wrench.
+    """Return (parameters, state, wrench, time, steps) -> outcome: `steps` steps from `time` under a constant body wrench.
 
     A step that the drift refuses ends the call; the outcome's state is then the one handed in.
     """
@@ -131,7 +116,9 @@ class Flown(NamedTuple):
     rescued: int
 
 
-def make_flight(composition: Composition) -> Callable[[StepParameters, float, DualQuaternion, Spatial], Flown]:
+def make_flight(
+    composition: Composition,
+) -> Callable[[StepParameters, float, DualQuaternion, Spatial], Flown]:
     """Return (parameters, h, pose, momentum) -> the drift over h in the moving water, rescued where need be."""
     drift, rescue, carry = composition.drift, composition.rescue, composition.water.carry
 
@@ -146,7 +133,9 @@ def make_flight(composition: Composition) -> Callable[[StepParameters, float, Du
     return fly
 
 
-def refusal(state: BodyState, completed: int, iterations: int, rescued: int, report: DriftReport) -> StepOutcome:
+def refusal(
+    state: BodyState, completed: int, iterations: int, rescued: int, report: DriftReport
+) -> StepOutcome:
     """Return the outcome of a step that was not solved."""
     status = NOT_CONVERGED if report.on_rest_branch else WRONG_BRANCH
     return StepOutcome(state, status, completed, iterations, rescued, report.relative_residual_squared)

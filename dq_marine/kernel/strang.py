@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from dq_marine.kernel.body import BodyState
 from dq_marine.kernel.drift_report import drift_accepted
+from dq_marine.kernel.forces import make_forced_kick
 from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import (
     Advance,
@@ -13,18 +14,21 @@ from dq_marine.kernel.step import (
     StepOutcome,
     StepParameters,
     arrival,
-    join_forces,
     make_flight,
     refusal,
 )
 
 
 class StrangTiming(NamedTuple):
-    """Step size [s], and the parameters of the composition's kick over h/2 and over h."""
+    """Step size [s], and the parameters of the composition's kick: opening a step, closing one, and both at once.
+
+    The first two last h/2, the third h.
+    """
 
     h: float
-    half_kick: Any
-    full_kick: Any
+    opening: Any
+    closing: Any
+    between: Any
 
 
 def make_strang(composition: Composition) -> Advance:
@@ -32,14 +36,15 @@ def make_strang(composition: Composition) -> Advance:
 
     The closing half kick of a step and the opening one of the next share a pose and are taken as one full kick.
     """
-    add_forces = join_forces(composition.forces)
-    kick, fly = composition.kick, make_flight(composition)
+    kick = make_forced_kick(composition.kick, composition.pose_forces, composition.velocity_forces)
+    fly = make_flight(composition)
 
-    def strang(parameters: StepParameters, state: BodyState, wrench: Spatial, steps: int) -> StepOutcome:
-        timing, inertia = parameters.timing, parameters.inertia
+    def strang(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        timing, inertia, forces = parameters.timing, parameters.inertia, parameters.forces
         pose = state.pose
-        force = add_forces(parameters.forces, pose, wrench)
-        momentum = kick(timing.half_kick, inertia, state.momentum, force)
+        momentum = kick(forces, inertia, timing.opening, pose, state.momentum, time, wrench)
         iterations = 0
         rescued = 0
         worst = 0.0
@@ -51,9 +56,9 @@ def make_strang(composition: Composition) -> Advance:
             if not drift_accepted(flown.report):
                 return refusal(state, completed, iterations, rescued, flown.report)
             pose = flown.pose
-            force = add_forces(parameters.forces, pose, wrench)
-            closing = timing.half_kick if completed == steps - 1 else timing.full_kick
-            momentum = kick(closing, inertia, flown.momentum, force)
+            node = time + (completed + 1) * timing.h
+            following = timing.closing if completed == steps - 1 else timing.between
+            momentum = kick(forces, inertia, following, pose, flown.momentum, node, wrench)
         return arrival(state, pose, momentum, steps, iterations, rescued, worst)
 
     return strang

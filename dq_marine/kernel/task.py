@@ -60,16 +60,22 @@ class PeriodOutcome(NamedTuple):
 
 def make_control_period(
     composition: Composition, task: Task
-) -> Callable[[StepParameters, Any, BodyState, Any, Any, int], PeriodOutcome]:
-    """Return (parameters, task parameters, state, memory, action, steps) -> outcome: one control period."""
+) -> Callable[[StepParameters, Any, BodyState, Any, Any, float, int], PeriodOutcome]:
+    """Return (parameters, task parameters, state, memory, action, time, steps) -> outcome: one control period."""
     advance = make_advance(composition)
     motion_of = make_motion(composition)
     act, remember, observe, judge = task.act, task.remember, task.observe, task.judge
 
     def control_period(
-        parameters: StepParameters, aim: Any, state: BodyState, memory: Any, action: Any, steps: int
+        parameters: StepParameters,
+        aim: Any,
+        state: BodyState,
+        memory: Any,
+        action: Any,
+        time: float,
+        steps: int,
     ) -> PeriodOutcome:
-        step = advance(parameters, state, act(aim, action), steps)
+        step = advance(parameters, state, act(aim, action), time, steps)
         motion = motion_of(parameters, step.state)
         memory_after = remember(aim, memory, motion)
         return PeriodOutcome(

@@ -34,16 +34,18 @@ def operations(body):
     body.reset(velocity_body=(0.3, -0.2, 0.1, 0.05, 0.04, -0.03))
     advance = make_advance(body._composition)
     wrench = counted(from_fossen((1.0, 2.0, 3.0, 0.1, 0.2, 0.3)))
-    return operations_of(advance, counted(body.parameters), counted(body.state), wrench, 1)
+    return operations_of(advance, counted(body.parameters), counted(body.state), wrench, 0.0, 1)
 
 
 def test_an_absent_term_costs_nothing():
     """A scene without a term runs the very function of a scene that never heard of it; a present term costs."""
     bare = make_body(M, 0.02)
     assert bare._composition == Composition(
-        make_strang, (), undamped_kick, midpoint_drift, midpoint_rescue, STILL_WATER
+        make_strang, (), (), undamped_kick, midpoint_drift, midpoint_rescue, STILL_WATER
     )
-    zero = make_body(M, 0.02, excess_weight=0.0, arm=np.zeros(3), linear=np.zeros((6, 6)), current=np.zeros(3))
+    zero = make_body(
+        M, 0.02, excess_weight=0.0, arm=np.zeros(3), linear=np.zeros((6, 6)), current=np.zeros(3)
+    )
     assert zero._advance is bare._advance
     assert operations(zero) == operations(bare)
     for term in (

@@ -122,7 +122,7 @@ def test_a_step_beyond_the_translation_limit_is_split():
 
 
 def test_a_step_beyond_every_rescue_is_refused_by_name():
-    """h sigma = 2 x 64 is where the smallest pieces leave the branch too."""
+    """H sigma = 2 x 64 is where the smallest pieces leave the branch too."""
     body = make_body(SPHEROID, 1.0)
     body.reset(velocity_body=(2.0 * 64.0 / MUNK_RATE * 1.01, 0.0, 0.0, 0.0, 0.0, 0.0))
     before = body.get_state()

@@ -41,6 +41,6 @@ def test_plain_python_and_compiled_agree_bit_for_bit():
     )
     body.reset(rng.normal(size=3), random_quaternion(rng), rng.normal(size=6))
     wrench = rng.normal(size=6)
-    plain = make_advance(body._composition)(body.parameters, body.state, from_fossen(tuple(wrench)), 7)
+    plain = make_advance(body._composition)(body.parameters, body.state, from_fossen(tuple(wrench)), 0.0, 7)
     body.step(wrench, 7)
     assert np.array_equal(pack(plain.state), body.get_state()[1:])

@@ -34,9 +34,7 @@ def draw(seed, size=0.1, condition=20.0):
 
 
 def complex_step(function, x):
-    return np.array(
-        [np.imag(function(x + 1e-30j * direction)) / 1e-30 for direction in np.eye(len(x))]
-    ).T
+    return np.array([np.imag(function(x + 1e-30j * direction)) / 1e-30 for direction in np.eye(len(x))]).T
 
 
 # The reduced form
@@ -246,7 +244,7 @@ def test_erratum_energy_is_bounded_not_exact():
 
 
 def test_erratum_a_regular_but_indefinite_inertia_is_no_inertia():
-    """det M != 0 does not suffice: the step is refused on an indefinite M."""
+    """Det M != 0 does not suffice: the step is refused on an indefinite M."""
     m = np.diag([1.0, 1.0, 1.0, -1.0, 1.0, 2.0])
     momentum = Spatial((0.1, 0.0, 0.0), (0.1, 0.0, 0.0))
     _, _, report = paper_drift(inertia_term(m), 0.1, ORIGIN, momentum)
@@ -313,7 +311,9 @@ def test_make_drift_is_what_the_scene_uses():
     again = make_drift(PAPER)
     m, _, a, b = draw(5)
     momentum = Spatial(tuple(20.0 * a), tuple(20.0 * b))
-    assert again(inertia_term(m), 0.1, ORIGIN, momentum) == paper_drift(inertia_term(m), 0.1, ORIGIN, momentum)
+    assert again(inertia_term(m), 0.1, ORIGIN, momentum) == paper_drift(
+        inertia_term(m), 0.1, ORIGIN, momentum
+    )
     state = BodyState(*again(inertia_term(m), 0.1, ORIGIN, momentum)[:2])
     before = to_fossen(spatial_momentum(BodyState(ORIGIN, momentum)))
     assert np.allclose(to_fossen(spatial_momentum(state)), before, atol=1e-12)

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from dq_marine.assembly import Assembly
 from dq_marine.engines.one_body import OneBody
-from dq_marine.kernel.composed import STAGES, ComposedTiming, make_composed
-from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
-from dq_marine.kernel.step import Composition, StepParameters
-from dq_marine.kernel.strang import make_strang
-from dq_marine.scene import DRIFTS
-from dq_marine.terms import DampingTerm, inertia_term, nested_parameters, restoring_terms, strang_timing, vector3
+from dq_marine.terms import DampingTerm, restoring_terms
 
 
 def random_inertia(rng, condition=20.0, coupled=True):
@@ -46,33 +42,19 @@ def make_body(
     current=(0.0, 0.0, 0.0),
     scheme="midpoint",
     order=2,
+    l_stable=True,
+    forces=(),
 ):
-    """A `OneBody` with any M, restoring, damping (Fossen's order) and current."""
+    """A `OneBody` with any M, restoring, damping (Fossen's order), current and forces."""
+    mass_matrix = np.asarray(mass_matrix, dtype=float)
     linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)
     quadratic = np.zeros(6) if quadratic is None else np.asarray(quadratic, dtype=float)
-    damping = DampingTerm(linear, quadratic, np.asarray(mass_matrix, dtype=float))
-    forces = restoring_terms(excess_weight, np.asarray(arm, dtype=float))
-    current = np.asarray(current, dtype=float)
-    drift, rescue = DRIFTS[scheme]
-    composition = Composition(
-        method=make_strang if order == 2 else make_composed,
-        forces=tuple(term.function for term in forces),
-        kick=damping.kick,
-        drift=drift,
-        rescue=rescue,
-        water=MOVING_WATER if current.any() else STILL_WATER,
+    assembly = Assembly(
+        mass_matrix,
+        (*restoring_terms(excess_weight, np.asarray(arm, dtype=float)), *forces),
+        DampingTerm(linear, quadratic, mass_matrix, l_stable),
+        np.asarray(current, dtype=float),
+        scheme,
+        order,
     )
-
-    def parameters_at(h):
-        if order == 2:
-            timing = strang_timing(h, damping)
-        else:
-            timing = ComposedTiming(tuple(h * stage for stage in STAGES[order]))
-        return StepParameters(
-            inertia=inertia_term(np.asarray(mass_matrix, dtype=float)),
-            forces=nested_parameters(forces),
-            water=UniformCurrent(vector3(current)) if current.any() else (),
-            timing=timing,
-        )
-
-    return OneBody(composition, parameters_at, step)
+    return OneBody(assembly.composition, assembly.parameters_at, step)

@@ -1,0 +1,105 @@
+"""Order 4 for damped scenes: extrapolation of Strang's method, with positive substeps only.
+
+A step of size h is taken once whole, once as two halves and once as three thirds. Strang's method with the L-stable kick
+has a local error e2 h^3 + e3 h^4 + O(h^5) (its kick is not symmetric), and n substeps divide e2 by n^2 and e3 by n^3. The
+weights w of the three results that sum to 1 and cancel both are 1/12, -4/3 and 9/4. (Kicks are not merged between
+substeps: that would add a part of e2 h^3 that n substeps divide by n^3, and of e3 h^4 by n^4.) Momentum is combined by components;
+poses in the Lie algebra about the finest result, p = p3 exp(w1 log(p3* p1) + w2 log(p3* p2)), whose commutators are of
+O(h^6). Each result is L-stable, hence so is their combination.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from dq_marine.kernel.body import BodyState
+from dq_marine.kernel.dual_quaternion import (
+    DualQuaternion,
+    dual_conjugate,
+    dual_multiply,
+    pose_renormalise,
+)
+from dq_marine.kernel.screw import pose_exp, pose_log
+from dq_marine.kernel.spatial import Spatial, spatial_add, spatial_scale
+from dq_marine.kernel.step import ACCEPTED, Advance, Composition, StepOutcome, StepParameters, arrival
+from dq_marine.kernel.strang import StrangTiming, make_strang
+
+WEIGHT_WHOLE = 1.0 / 12.0
+WEIGHT_HALVES = -4.0 / 3.0
+WEIGHT_THIRDS = 9.0 / 4.0
+
+
+class ExtrapolatedTiming(NamedTuple):
+    """Strang's timing for h, h/2 and h/3."""
+
+    whole: StrangTiming
+    halves: StrangTiming
+    thirds: StrangTiming
+
+
+def weighted_pose(whole: DualQuaternion, halves: DualQuaternion, thirds: DualQuaternion) -> DualQuaternion:
+    """Return the weighted mean of three close poses."""
+    back = dual_conjugate(thirds)
+    correction = spatial_add(
+        spatial_scale(WEIGHT_WHOLE, pose_log(dual_multiply(back, whole))),
+        spatial_scale(WEIGHT_HALVES, pose_log(dual_multiply(back, halves))),
+    )
+    return pose_renormalise(dual_multiply(thirds, pose_exp(correction)))
+
+
+def weighted_momentum(whole: Spatial, halves: Spatial, thirds: Spatial) -> Spatial:
+    """Return the weighted mean of three momenta, by components."""
+    coarse = spatial_add(spatial_scale(WEIGHT_WHOLE, whole), spatial_scale(WEIGHT_HALVES, halves))
+    return spatial_add(coarse, spatial_scale(WEIGHT_THIRDS, thirds))
+
+
+def make_extrapolated(composition: Composition) -> Advance:
+    """Return the advance of the extrapolated method."""
+    strang = make_strang(composition)
+
+    def pieces(
+        parameters: StepParameters,
+        timing: StrangTiming,
+        state: BodyState,
+        wrench: Spatial,
+        time: float,
+        count: int,
+    ) -> StepOutcome:
+        """Take a number of single steps."""
+        timed = StepParameters(parameters.inertia, parameters.forces, parameters.water, timing)
+        outcome = strang(timed, state, wrench, time, 1)
+        iterations, rescued, worst = outcome.iterations, outcome.rescued, outcome.residual_squared
+        for done in range(1, count):
+            if outcome.status == ACCEPTED:
+                outcome = strang(timed, outcome.state, wrench, time + done * timing.h, 1)
+                iterations += outcome.iterations
+                rescued += outcome.rescued
+                worst = max(worst, outcome.residual_squared)
+        return StepOutcome(outcome.state, outcome.status, 0, iterations, rescued, worst)
+
+    def extrapolated(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        timing = parameters.timing
+        now = state
+        iterations = 0
+        rescued = 0
+        worst = 0.0
+        for completed in range(steps):
+            node = time + completed * timing.whole.h
+            whole = pieces(parameters, timing.whole, now, wrench, node, 1)
+            halves = pieces(parameters, timing.halves, now, wrench, node, 2)
+            thirds = pieces(parameters, timing.thirds, now, wrench, node, 3)
+            for result in (whole, halves, thirds):
+                iterations += result.iterations
+                rescued += result.rescued
+                worst = max(worst, result.residual_squared)
+                if result.status != ACCEPTED:
+                    return StepOutcome(state, result.status, completed, iterations, rescued, worst)
+            now = BodyState(
+                weighted_pose(whole.state.pose, halves.state.pose, thirds.state.pose),
+                weighted_momentum(whole.state.momentum, halves.state.momentum, thirds.state.momentum),
+            )
+        return arrival(state, now.pose, now.momentum, steps, iterations, rescued, worst)
+
+    return extrapolated
