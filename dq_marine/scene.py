@@ -61,7 +61,7 @@ class Scene:
             scheme: the drift: "midpoint", or "paper" for that of Xu & Halse.
             step: step size h [s]; negative runs time backwards, in a scene that takes no energy.
             order: of the method: 2 or 4, and 6 or 8 in a scene that takes no energy.
-            kick: "l_stable", or "implicit_node", which is more accurate under mild damping and rings under stiff.
+            kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
             forces: of your own, see `dq_marine.terms.ForceTerm`.
 
         Raises:
