@@ -27,6 +27,16 @@ class DualQuaternion(NamedTuple):
     dual: Quaternion
 
 
+def dual_add(a: DualQuaternion, b: DualQuaternion) -> DualQuaternion:
+    """Return a + b."""
+    return DualQuaternion(quaternion_add(a.real, b.real), quaternion_add(a.dual, b.dual))
+
+
+def dual_scale(s: float, a: DualQuaternion) -> DualQuaternion:
+    """Return s a, s a real number. -p is the same pose as p."""
+    return DualQuaternion(quaternion_scale(s, a.real), quaternion_scale(s, a.dual))
+
+
 def dual_multiply(a: DualQuaternion, b: DualQuaternion) -> DualQuaternion:
     """Return the product a b."""
     return DualQuaternion(
@@ -38,6 +48,49 @@ def dual_multiply(a: DualQuaternion, b: DualQuaternion) -> DualQuaternion:
 def dual_conjugate(a: DualQuaternion) -> DualQuaternion:
     """Return the quaternion conjugate of both parts, the inverse of a unit dual quaternion."""
     return DualQuaternion(quaternion_conjugate(a.real), quaternion_conjugate(a.dual))
+
+
+def dual_number_conjugate(a: DualQuaternion) -> DualQuaternion:
+    """Return a with eps negated, real - eps dual, which keeps the order of products: (a b)' = a' b'."""
+    return DualQuaternion(a.real, quaternion_scale(-1.0, a.dual))
+
+
+def dual_combined_conjugate(a: DualQuaternion) -> DualQuaternion:
+    """Return both conjugates at once, real* - eps dual*, which reverses products.
+
+    It carries points: 1 + eps x goes to p (1 + eps x) p' (see `kernel.frames.point_to_world`). Twists and lines
+    take `dual_conjugate` in the same place.
+    """
+    return DualQuaternion(quaternion_conjugate(a.real), quaternion_scale(-1.0, quaternion_conjugate(a.dual)))
+
+
+def dual_transpose(a: DualQuaternion) -> DualQuaternion:
+    """Return a with its parts swapped, dual + eps real: the a* of Xu & Halse."""
+    return DualQuaternion(a.dual, a.real)
+
+
+def dual_dot(a: DualQuaternion, b: DualQuaternion) -> float:
+    """Return the scalar product of a and b as vectors of R^8: power, for a wrench and a twist.
+
+    A factor of a product moves to the other side by two rules, with ` the conjugate of `dual_conjugate` and
+    * the transpose of `dual_transpose`:
+
+        a . (b c) = c* . (b` a*)          the left factor
+        a . (b c) = b* . (a* c`)          the right factor
+    """
+    return quaternion_dot(a.real, b.real) + quaternion_dot(a.dual, b.dual)
+
+
+def dual_inner(a: DualQuaternion, b: DualQuaternion) -> tuple[float, float]:
+    """Return the scalar part of a` b, a dual number (real, dual), ` the conjugate of `dual_conjugate`.
+
+    (1, 0) of a unit dual quaternion with itself, and unchanged when a and b are multiplied by one on the same
+    side: of two poses it is the cosine of half the dual angle between them.
+    """
+    return (
+        quaternion_dot(a.real, b.real),
+        quaternion_dot(a.real, b.dual) + quaternion_dot(a.dual, b.real),
+    )
 
 
 def pose_from_parts(q: Quaternion, position: Vector3) -> DualQuaternion:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
+from dq_marine.kernel.matrix3 import Matrix3
 from dq_marine.kernel.vector3 import Vector3, add, add_scaled, cross, scale
 
 Quaternion: TypeAlias = tuple[float, float, float, float]
@@ -44,6 +45,11 @@ def quaternion_from_vector(a: Vector3) -> Quaternion:
     return (0.0, a[0], a[1], a[2])
 
 
+def quaternion_vector(a: Quaternion) -> Vector3:
+    """Return the vector part of a."""
+    return (a[1], a[2], a[3])
+
+
 def rotate(q: Quaternion, a: Vector3) -> Vector3:
     """Return q a q* for a unit q: a given in the body frame, returned in the world frame."""
     axis = (q[1], q[2], q[3])
@@ -62,4 +68,22 @@ def world_down_in_body(q: Quaternion) -> Vector3:
         2.0 * (q[1] * q[3] - q[0] * q[2]),
         2.0 * (q[2] * q[3] + q[0] * q[1]),
         1.0 - 2.0 * (q[1] * q[1] + q[2] * q[2]),
+    )
+
+
+def rotation_matrix(q: Quaternion) -> Matrix3:
+    """Return the matrix R of a unit q, row-major: R a = q a q*, so its columns are the body axes in the world."""
+    xx, yy, zz = q[1] * q[1], q[2] * q[2], q[3] * q[3]
+    xy, xz, yz = q[1] * q[2], q[1] * q[3], q[2] * q[3]
+    wx, wy, wz = q[0] * q[1], q[0] * q[2], q[0] * q[3]
+    return (
+        1.0 - 2.0 * (yy + zz),
+        2.0 * (xy - wz),
+        2.0 * (xz + wy),
+        2.0 * (xy + wz),
+        1.0 - 2.0 * (xx + zz),
+        2.0 * (yz - wx),
+        2.0 * (xz - wy),
+        2.0 * (yz + wx),
+        1.0 - 2.0 * (xx + yy),
     )
