@@ -26,7 +26,6 @@ from dq_marine.kernel.drift import DriftScheme, make_drift, make_robust_drift
 from dq_marine.kernel.dual_quaternion import DualQuaternion
 from dq_marine.kernel.inertia import Inertia
 from dq_marine.kernel.matrix3 import Matrix3, matrix_from_columns, transform
-from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
 
 
@@ -126,21 +125,11 @@ def pose_increment(at: DriftEquation) -> DualQuaternion:
     )
 
 
-def transported_momentum(at: DriftEquation, a: Vector3) -> Spatial:
-    """Return (h/2) times the body momentum after the step, by coadjoint transport.
-
-    mu_lin' = R^T R^T mu_lin and mu_ang' = R^T R^T (mu_ang - l x mu_lin) with l = 2 R y: the spatial momentum
-    is kept to round-off whatever the solver left over.
-    """
-    angular = add_scaled(turn_half_back(at.t, at.gain, a), -2.0, at.w)
-    return Spatial(turn_half_back(at.t, at.gain, angular), turn_half_back(at.t, at.gain, at.zb))
-
-
 def midpoint_guess(angle: Vector3) -> Vector3:
     """Return t for a small step angle h omega: a quarter of it."""
     return scale(0.25, angle)
 
 
-MIDPOINT = DriftScheme(drift_equation, drift_jacobian, midpoint_guess, pose_increment, transported_momentum)
+MIDPOINT = DriftScheme(drift_equation, drift_jacobian, midpoint_guess, pose_increment)
 midpoint_drift = make_drift(MIDPOINT)
 midpoint_rescue = make_robust_drift(MIDPOINT)

@@ -25,8 +25,6 @@ from dq_marine.kernel.drift import DriftScheme, make_drift, make_robust_drift
 from dq_marine.kernel.dual_quaternion import DualQuaternion
 from dq_marine.kernel.inertia import Inertia
 from dq_marine.kernel.matrix3 import Matrix3, matrix_from_columns, transform
-from dq_marine.kernel.quaternion import rotate_inverse
-from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
 
 SMALLEST_C_SQUARED = 0.5
@@ -110,18 +108,6 @@ def paper_increment(at: PaperEquation) -> DualQuaternion:
     return DualQuaternion((at.c, phi[0], phi[1], phi[2]), (at.f0, psi[0], psi[1], psi[2]))
 
 
-def paper_transport(at: PaperEquation, a: Vector3) -> Spatial:
-    """Return (h/2) times the body momentum after the step, by coadjoint transport.
-
-    b' = R^T b and a' = R^T (a - l x b), R the step's rotation and l its displacement, 2 (f0, Psi) (c, -Phi): the vector
-    part is 2 (c Psi - f0 Phi + Phi x Psi).
-    """
-    q = (at.c, at.phi[0], at.phi[1], at.phi[2])
-    displacement = scale(2.0, add(add_scaled(scale(at.c, at.psi), -at.f0, at.phi), cross(at.phi, at.psi)))
-    b = turn(at.c, at.phi, at.zb)
-    return Spatial(rotate_inverse(q, subtract(a, cross(displacement, b))), rotate_inverse(q, b))
-
-
-PAPER = DriftScheme(paper_equation, paper_jacobian, paper_guess, paper_increment, paper_transport)
+PAPER = DriftScheme(paper_equation, paper_jacobian, paper_guess, paper_increment)
 paper_drift = make_drift(PAPER)
 paper_rescue = make_robust_drift(PAPER)

@@ -52,7 +52,7 @@ def test_ten_thousand_steps_forth_and_back(scheme):
 
 @pytest.mark.parametrize("spin", [1.0, 60.0, 100.0, 1000.0])
 def test_fast_spins_about_any_axis(spin):
-    """h |omega| up to 20 at h = 0.02: solved, momentum exact."""
+    """H |omega| up to 20 at h = 0.02: solved, momentum exact."""
     rng = np.random.default_rng(1)
     for _ in range(10):
         axis = rng.normal(size=3)
@@ -87,7 +87,7 @@ def test_any_condition_any_mass_any_speed(seed, log_condition, log_mass, log_spe
 @settings(max_examples=40, deadline=None)
 @given(seeds, st.floats(-2.0, 6.0), st.sampled_from([2, 4]))
 def test_stiff_damping_with_any_inertia(seed, log_stiffness, order):
-    """h lambda from 1e-2 to 1e6: the body comes to rest, or as near as its softest axis lets it."""
+    """H lambda from 1e-2 to 1e6: the body comes to rest, or as near as its softest axis lets it."""
     rng = np.random.default_rng(seed)
     m, h = random_inertia(rng), 0.1
     damping = 10.0**log_stiffness / h * random_damping(rng)

@@ -60,7 +60,7 @@ def test_a_users_force_is_the_built_in_one():
 
 @pytest.mark.parametrize(("order", "tolerance"), [(2, 0.05), (4, 0.15)])
 def test_a_spring_swings_as_it_should(order, tolerance):
-    """x = cos(omega t), omega = sqrt(k/m): a force that depends on the position."""
+    """X = cos(omega t), omega = sqrt(k/m): a force that depends on the position."""
     steps, measured = np.array([0.1, 0.05, 0.025]), []
     for h in steps:
         body = make_body(np.diag([2.0] * 3 + [1.0] * 3), h, order=order, forces=(ForceTerm("spring", spring, Spring(8.0)),))
@@ -73,7 +73,7 @@ def test_a_spring_swings_as_it_should(order, tolerance):
 @pytest.mark.parametrize("order", [2, 4])
 @pytest.mark.parametrize("pieces", [1, 4])
 def test_a_force_may_depend_on_time(order, pieces):
-    """m x'' = a cos(w t) from rest; time goes on from call to call."""
+    """M x'' = a cos(w t) from rest; time goes on from call to call."""
     steps, measured = np.array([0.1, 0.05, 0.025]), []
     for h in steps:
         body = make_body(np.diag([2.0] * 3 + [1.0] * 3), h, order=order, forces=(ForceTerm("wave", wave, Wave(3.0, 2.0)),))
