@@ -1,0 +1,53 @@
+"""Making the environment that settings ask for."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium as gym
+
+from dq_marine.agents.settings import EnvironmentSettings
+from dq_marine.envs.marine_env import MarineEnv
+from dq_marine.errors import InvalidInputError
+
+DEFAULT_ENVIRONMENT = EnvironmentSettings(id="dq_marine/StationKeeping-v0")
+
+
+def make_environment(settings: EnvironmentSettings, **keywords: Any) -> gym.Env[Any, Any]:
+    """Make an environment.
+
+    Args:
+        settings: id and keywords.
+        keywords: further ones; they win over those of the settings.
+
+    Raises:
+        InvalidInputError: the id is not registered, or a keyword or its value is wrong.
+    """
+    chosen = {**settings.keywords, **keywords}
+    try:
+        # The checker wrapper re-examines every step; the tests of the environments do that once.
+        return gym.make(settings.id, disable_env_checker=True, **chosen)
+    except gym.error.Error as error:
+        raise InvalidInputError(f"environment id = {settings.id!r}: {error}") from error
+    except TypeError as error:
+        raise InvalidInputError(f"environment keywords {sorted(chosen)} are refused: {error}") from error
+
+
+def with_keywords(settings: EnvironmentSettings, **keywords: Any) -> EnvironmentSettings:
+    """Return settings with further keywords; None leaves a keyword as it is."""
+    given = {name: value for name, value in keywords.items() if value is not None}
+    return settings.model_copy(update={"keywords": {**settings.keywords, **given}})
+
+
+def marine(env: gym.Env[Any, Any]) -> MarineEnv:
+    """Return the environment inside its wrappers.
+
+    Raises:
+        InvalidInputError: it is not one of this package.
+    """
+    inner = env.unwrapped
+    if not isinstance(inner, MarineEnv):
+        raise InvalidInputError(
+            f"{inner} is not an environment of dq_marine; make one whose id starts with it"
+        )
+    return inner

@@ -1,0 +1,80 @@
+"""Reading preset files."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from dq_marine.agents.settings import Settings
+from dq_marine.errors import InvalidInputError
+
+PRESET_FOLDER = Path(__file__).parent / "presets"
+
+SettingsType = TypeVar("SettingsType", bound=Settings)
+
+
+def preset_names() -> list[str]:
+    """Return the names of the shipped presets, sorted."""
+    return sorted(path.stem for path in PRESET_FOLDER.glob("*.toml"))
+
+
+def read_settings(preset: str | os.PathLike[str], model: type[SettingsType]) -> SettingsType:
+    """Read a preset.
+
+    Args:
+        preset: name of a shipped preset, or the path of a TOML file.
+        model: what the file is to hold.
+
+    Raises:
+        InvalidInputError: there is no such preset, or it is wrong; the message lists field, value and remedy.
+    """
+    path = _preset_path(preset)
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InvalidInputError(f"{path}: not a TOML file: {error}") from error
+    except OSError as error:
+        raise InvalidInputError(f"{path}: cannot be read: {error.strerror}") from error
+    return validate_settings(content, model, source=str(path))
+
+
+def validate_settings(content: Any, model: type[SettingsType], *, source: str) -> SettingsType:
+    """Return `content`, which came from `source`, as settings.
+
+    Raises:
+        InvalidInputError: it is wrong; the message lists source, field, value and remedy.
+    """
+    try:
+        return model.model_validate(content)
+    except ValidationError as error:
+        lines = [_line(detail) for detail in error.errors(include_url=False)]
+        raise InvalidInputError(f"{source} is refused:\n  " + "\n  ".join(lines)) from error
+
+
+def _preset_path(preset: str | os.PathLike[str]) -> Path:
+    text = os.fspath(preset)
+    if text in preset_names():
+        return PRESET_FOLDER / f"{text}.toml"
+    path = Path(text).expanduser()
+    if not path.is_file():
+        raise InvalidInputError(
+            f"there is no preset or file {text!r}; the presets are {', '.join(preset_names())}, and the path of "
+            "an existing .toml file is taken too"
+        )
+    return path
+
+
+def _line(detail: ErrorDetails) -> str:
+    """Say one mistake: field = value: problem."""
+    field = ".".join(str(part) for part in detail["loc"])
+    if detail["type"] == "extra_forbidden":
+        return f"{field} = {detail['input']!r}: unknown key; remove it or correct its spelling"
+    if detail["type"] == "missing":
+        return f"{field}: missing; add it"
+    problem = detail["msg"].removeprefix("Value error, ")
+    return f"{field} = {detail['input']!r}: {problem}" if field else problem

@@ -1,0 +1,1 @@
+"""Presets: TOML files with every number that the agents are tuned by, read by `dq_marine.agents.settings`."""

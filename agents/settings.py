@@ -1,0 +1,153 @@
+"""What the preset files say: frozen, validated models."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+Positive = Annotated[float, Field(gt=0.0)]
+NonNegative = Annotated[float, Field(ge=0.0)]
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+Count = Annotated[int, Field(ge=1)]
+
+
+class Settings(BaseModel):
+    """A table of a preset file: frozen, without unknown keys, without infinities."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class LoopSettings(Settings):
+    """Where the poles of three axes are placed: (s^2 + 2 zeta w s + w^2)(s + w_i).
+
+    Attributes:
+        bandwidth: w [rad/s].
+        damping_ratio: zeta.
+        integral_rate: w_i [rad/s]; 0 for no integral action.
+        integral_reach: errors beyond this are integrated as this [m or rad].
+    """
+
+    bandwidth: Positive
+    damping_ratio: Positive
+    integral_rate: NonNegative
+    integral_reach: Positive
+
+
+class ControllerSettings(Settings):
+    """The dynamic positioning controller.
+
+    Attributes:
+        position: the three axes of position.
+        attitude: the three axes of attitude.
+        anti_windup_time: in which the integral gives way to a saturated actuator [s].
+    """
+
+    position: LoopSettings
+    attitude: LoopSettings
+    anti_windup_time: Positive
+
+
+class EnvironmentSettings(Settings):
+    """The environment: its registered id and the keywords of `gymnasium.make`."""
+
+    id: str = Field(min_length=1)
+    keywords: dict[str, Any] = Field(default_factory=dict)
+
+
+class PPOSettings(Settings):
+    """Hyperparameters of `stable_baselines3.PPO`, by its names.
+
+    Two are said otherwise: the learning rate falls linearly to `final_learning_rate`, and the batch size is what
+    was collected over `minibatches`, so that it follows the number of environments.
+    """
+
+    name: Literal["ppo"]
+    learning_rate: Positive
+    final_learning_rate: Positive
+    n_steps: Count
+    minibatches: Count
+    n_epochs: Count
+    gamma: Fraction
+    gae_lambda: Fraction
+    clip_range: Positive
+    ent_coef: NonNegative
+    vf_coef: NonNegative
+    max_grad_norm: Positive
+    log_std_init: float
+
+
+class SACSettings(Settings):
+    """Hyperparameters of `stable_baselines3.SAC`, by its names; the learning rate falls linearly."""
+
+    name: Literal["sac"]
+    learning_rate: Positive
+    final_learning_rate: Positive
+    buffer_size: Count
+    learning_starts: Annotated[int, Field(ge=0)]
+    batch_size: Count
+    tau: Fraction
+    gamma: Fraction
+    train_freq: Count
+    gradient_steps: Count
+    ent_coef: Literal["auto"] | NonNegative
+
+
+class NetworkSettings(Settings):
+    """The policy's and the critic's hidden layers."""
+
+    layers: tuple[Count, ...] = Field(min_length=1)
+    activation: Literal["tanh", "relu"]
+
+
+class NormalisationSettings(Settings):
+    """Running normalisation: of what, and the magnitude that normalised numbers are cut at."""
+
+    observation: bool
+    reward: bool
+    clip: Positive
+
+
+class EvaluationSettings(Settings):
+    """Evaluation while training: after how many steps, over how many episodes."""
+
+    every: Count
+    episodes: Count
+
+
+class TrainingSettings(Settings):
+    """Everything that a training run follows from, together with its seed.
+
+    Attributes:
+        timesteps: control periods to learn from, over all environments.
+        envs: environments stepped in turn.
+        torch_threads: processor threads that torch may use.
+        checkpoint_every: timesteps between checkpoints.
+        environment: what to learn in.
+        algorithm: what to learn with.
+        network: what to learn.
+        normalisation: of observations and rewards.
+        evaluation: while training, on environments of its own.
+    """
+
+    timesteps: Count
+    envs: Count
+    torch_threads: Count
+    checkpoint_every: Count
+    environment: EnvironmentSettings
+    algorithm: Annotated[PPOSettings | SACSettings, Field(discriminator="name")]
+    network: NetworkSettings
+    normalisation: NormalisationSettings
+    evaluation: EvaluationSettings
+
+    @model_validator(mode="after")
+    def _batches_fit(self) -> Self:
+        if isinstance(self.algorithm, PPOSettings):
+            collected = self.envs * self.algorithm.n_steps
+            if collected % self.algorithm.minibatches or collected < 2 * self.algorithm.minibatches:
+                raise ValueError(
+                    f"algorithm.minibatches = {self.algorithm.minibatches} does not cut envs x n_steps = "
+                    f"{self.envs} x {self.algorithm.n_steps} = {collected} into equal parts of 2 or more; "
+                    "change one of the three"
+                )
+        return self

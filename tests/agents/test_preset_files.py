@@ -1,0 +1,65 @@
+"""Presets: the shipped ones are valid, and mistakes are named by file, field and value."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from dq_marine.agents.preset_files import PRESET_FOLDER, preset_names, read_settings
+from dq_marine.agents.settings import ControllerSettings, TrainingSettings
+from dq_marine.errors import InvalidInputError
+
+
+def edited(tmp_path: Path, preset: str, old: str, new: str) -> Path:
+    """A copy of a shipped preset with one thing changed."""
+    text = (PRESET_FOLDER / f"{preset}.toml").read_text(encoding="utf-8")
+    assert text.count(old) == 1
+    path = tmp_path / "mine.toml"
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    return path
+
+
+def test_shipped_presets_are_valid() -> None:
+    assert preset_names() == ["dp_controller", "ppo", "sac"]
+    read_settings("dp_controller", ControllerSettings)
+    for name in ("ppo", "sac"):
+        assert read_settings(name, TrainingSettings).algorithm.name == name
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("gamma = 0.98", "gama = 0.98", r"mine\.toml.*\n(.*\n)*.*gama = 0\.98: unknown key"),
+        ("gamma = 0.98", "", r"mine\.toml.*\n.*gamma: missing; add it"),
+        ("gamma = 0.98", "gamma = 1.5", r"gamma = 1\.5: .*less than or equal to 1"),
+        ("gamma = 0.98", 'gamma = "high"', r"gamma = 'high': .*number"),
+        ("gamma = 0.98", "gamma = nan", r"gamma = nan: .*finite"),
+        ("[network]", "[networks]", r"network: missing(.*\n)*.*networks = .*unknown key"),
+        ('name = "ppo"', 'name = "dqn"', r"algorithm = .*'dqn'.*'ppo'"),
+        ("minibatches = 4", "minibatches = 5", r"minibatches = 5 does not cut .* = 4096 .*change one"),
+    ],
+)
+def test_mistakes_are_named(tmp_path: Path, old: str, new: str, message: str) -> None:
+    path = edited(tmp_path, "ppo", old, new)
+    with pytest.raises(InvalidInputError, match=message):
+        read_settings(path, TrainingSettings)
+
+
+def test_controller_mistakes_are_named(tmp_path: Path) -> None:
+    path = edited(tmp_path, "dp_controller", "bandwidth = 2.0 ", "bandwidth = -2.0 ")
+    with pytest.raises(
+        InvalidInputError, match=r"mine\.toml.*\n.*position\.bandwidth = -2\.0: .*greater than 0"
+    ):
+        read_settings(path, ControllerSettings)
+
+
+def test_what_is_no_preset(tmp_path: Path) -> None:
+    with pytest.raises(
+        InvalidInputError, match="no preset or file 'ddpg'; the presets are dp_controller, ppo, sac"
+    ):
+        read_settings("ddpg", TrainingSettings)
+    path = tmp_path / "mine.toml"
+    path.write_text("gamma = = 1", encoding="utf-8")
+    with pytest.raises(InvalidInputError, match=r"mine\.toml: not a TOML file"):
+        read_settings(path, TrainingSettings)
