@@ -16,7 +16,7 @@ from typing import Any
 
 import numba
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
-from numba.extending import register_jitable
+from numba.extending import overload, register_jitable
 
 import dq_marine.engines
 import dq_marine.kernel
@@ -64,7 +64,8 @@ def all_used_functions(function: Callable[..., Any]) -> list[FunctionType]:
 @functools.cache
 def make_compilable(function: FunctionType) -> None:
     """Let compiled code call a plain function, which stays plain Python."""
-    register_jitable(error_model="numpy", forceinline=True)(function)
+    if function not in _COMPILED_APART:
+        register_jitable(error_model="numpy", forceinline=True)(function)
 
 
 @functools.cache
@@ -88,6 +89,12 @@ def name_of(function: Callable[..., Any]) -> str:
     inner = ", ".join(name_of(value) for value in cells if inspect.isfunction(value))
     name = f"{function.__module__}.{function.__qualname__}"
     return f"{name}[{inner}]" if inner else name
+
+
+@functools.cache
+def announce_compilation() -> None:
+    """Say, once, why a first step takes long."""
+    announce("compiling for this scene, some ten seconds; kept for the next time")
 
 
 class _Locator(_CacheLocator):
@@ -133,11 +140,13 @@ class _CompositionCache(FunctionCache):
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         loaded = super().load_overload(sig, target_context)
         if loaded is None:
-            announce("compiling for this scene, some ten seconds; kept for the next time")
+            announce_compilation()
         return loaded
 
 
-def compile_function(function: Callable[..., Any], layout: str) -> Callable[..., Any]:
+def compile_function(
+    function: Callable[..., Any], layout: str, apart: tuple[Callable[..., Any], ...] = ()
+) -> Callable[..., Any]:
     """Compile a function and the plain functions it uses, for any signature it is then called with.
 
     Functions are found by the names they are called by: import them by name, not through their module.
@@ -145,11 +154,15 @@ def compile_function(function: Callable[..., Any], layout: str) -> Callable[...,
     Args:
         function: what to compile.
         layout: whatever distinguishes it beyond the functions it closes over, such as the types it loads.
+        apart: functions it uses that are rarely called: compiled by themselves, once for all that use them,
+            instead of into each.
 
     Returns:
         The compiled function; it is loaded from disk if sources, Numba and processor are those of the last
         time.
     """
+    for part in apart:
+        compile_apart(part)
     used = all_used_functions(function)
     for part in used:
         make_compilable(part)
@@ -160,6 +173,25 @@ def compile_function(function: Callable[..., Any], layout: str) -> Callable[...,
         cache = _CompositionCache(function, f"{name_of(function)}|{layout}", source_fingerprint(files))
         compiled._cache = cache
     return compiled
+
+
+@functools.cache
+def compile_apart(function: Callable[..., Any]) -> None:
+    """Let compiled code call a plain function as a compiled function of its own."""
+    compiled = compile_function(function, "apart")
+
+    @overload(function, strict=False)
+    def call_compiled(*arguments: Any) -> Any:
+        def call(*arguments: Any) -> Any:
+            return compiled(*arguments)
+
+        return call
+
+    _COMPILED_APART.add(function)
+
+
+_COMPILED_APART: set[Callable[..., Any]] = set()
+"""Functions that `make_compilable` must leave alone."""
 
 
 @functools.cache

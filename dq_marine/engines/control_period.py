@@ -81,4 +81,5 @@ def compiled_control_period(
             verdict.terminated,
         )
 
-    return compile_function(control_period_arrays, f"{step_layout}|{aim_layout}|{memory_layout}")
+    layout = f"{step_layout}|{aim_layout}|{memory_layout}"
+    return compile_function(control_period_arrays, layout, apart=(composition.rescue,))

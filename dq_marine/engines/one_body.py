@@ -255,4 +255,4 @@ def compiled_advance(composition: Composition, layout: types.Type) -> Callable[.
             outcome.residual_squared,
         )
 
-    return compile_function(advance_arrays, str(layout))
+    return compile_function(advance_arrays, str(layout), apart=(composition.rescue,))

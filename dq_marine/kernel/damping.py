@@ -42,7 +42,8 @@ class FullDamping(NamedTuple):
 class DampingAlgebra(NamedTuple):
     """The operations on one kind of damping matrix.
 
-    at(damping, twist) is D(chi); slope(damping, twist) is the derivative of D(chi) chi; apply(D, chi) is D chi; add_scaled(m, s, D) is m + s D for a 6x6 m;
+    at(damping, twist) is D(chi); slope(damping, twist) is the derivative of D(chi) chi; apply(D, chi) is D chi;
+    add_scaled(m, s, D) is m + s D for a 6x6 m;
     sandwich(D, m) is D m D.
     """
 

@@ -1,14 +1,15 @@
 """What the drifts of all schemes share: Newton's method, and what to do when it fails.
 
-A scheme eliminates the translation and leaves one equation in three unknowns x, the rotation variable of the step, for
-the scaled momenta a = (h/2) mu_angular and b = (h/2) mu_linear. `DriftScheme` names its functions. `make_drift`
+A scheme eliminates the translation and leaves one equation in three unknowns x, the rotation variable of the step,
+for the scaled momenta a = (h/2) mu_angular and b = (h/2) mu_linear. `DriftScheme` names its functions. `make_drift`
 makes the fast drift, plain Newton; `make_robust_drift` the one for steps that the fast one does not solve:
-damped Newton, then continuation from rest, then the step split in up to `MAX_PIECES`. The equation and the branch decide
-alike in both, so a rescued step is as right as any other.
+continuation from rest, else the step split in up to `MAX_PIECES`. Newton's method with damped steps has no place
+here: it finds solutions, but not necessarily on the branch that starts at rest.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
@@ -16,7 +17,6 @@ from dq_marine.kernel.drift_report import (
     ACCEPTED_RESIDUAL,
     CONTINUED,
     CONVERGED_RESIDUAL,
-    DAMPED,
     DIRECT,
     SPLIT,
     DriftReport,
@@ -32,10 +32,11 @@ from dq_marine.kernel.inertia import Inertia, twist_from_momentum
 from dq_marine.kernel.matrix3 import Matrix3, has_negative_real_eigenvalue, invert, transform
 from dq_marine.kernel.quaternion import Quaternion, rotate, rotate_inverse
 from dq_marine.kernel.spatial import Spatial, spatial_scale
-from dq_marine.kernel.vector3 import Vector3, add_scaled, cross, scale, subtract
+from dq_marine.kernel.vector3 import Vector3, cross, dot, scale, subtract
 
 MAX_ITERATIONS = 12
-MAX_HALVINGS = 12
+SHRINKING = 0.25  # of the squared correction, from one iteration to the next: at most half of the one before
+NEGLIGIBLE_CORRECTION = 1e-20  # of the squared correction, in quarter angles
 MAX_CONTINUATION_SOLVES = 64
 SMALLEST_CONTINUATION_STEP = 1.0 / 256.0
 MAX_PIECES = 64
@@ -67,18 +68,24 @@ def make_newton(scheme: DriftScheme) -> Solve:
     """Return (inertia, guess, a, b) -> (equation, report): Newton's method.
 
     It stops when the residual is at round-off, when it has stopped falling below the accepted residual, or after
-    `MAX_ITERATIONS`.
+    `MAX_ITERATIONS`. There may be several solutions whose Jacobians look alike; that the corrections shrink from the
+    start (Deuflhard's natural monotonicity) tells that it did not wander off to another one than the guess's.
     """
     equation_at, jacobian_at = scheme.equation, scheme.jacobian
 
     def newton(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
         equation = equation_at(inertia, guess, a, b)
-        on_rest_branch = False
+        regular = False
+        shrinking = True
+        correction = math.inf
         iterations = 0
         for _ in range(MAX_ITERATIONS):
             jacobian = jacobian_at(inertia, equation)
-            on_rest_branch = not has_negative_real_eigenvalue(jacobian)
+            regular = not has_negative_real_eigenvalue(jacobian)
             step = transform(invert(jacobian), equation.residual)
+            size = dot(step, step)
+            shrinking = shrinking and (size <= SHRINKING * correction or size <= NEGLIGIBLE_CORRECTION)
+            correction = size
             before = equation.relative_residual_squared
             equation = equation_at(inertia, subtract(equation[0], step), a, b)
             iterations += 1
@@ -87,40 +94,10 @@ def make_newton(scheme: DriftScheme) -> Solve:
                 break
             if before <= ACCEPTED_RESIDUAL**2 and after >= 0.25 * before:
                 break
+        on_rest_branch = regular and shrinking
         return equation, DriftReport(equation.relative_residual_squared, on_rest_branch, iterations, DIRECT)
 
     return newton
-
-
-def make_damped_newton(scheme: DriftScheme) -> Solve:
-    """Return (inertia, guess, a, b) -> (equation, report): Newton's method whose steps are halved until they help."""
-    equation_at, jacobian_at = scheme.equation, scheme.jacobian
-
-    def damped_newton(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
-        equation = equation_at(inertia, guess, a, b)
-        on_rest_branch = False
-        iterations = 0
-        for _ in range(4 * MAX_ITERATIONS):
-            jacobian = jacobian_at(inertia, equation)
-            on_rest_branch = not has_negative_real_eigenvalue(jacobian)
-            step = transform(invert(jacobian), equation.residual)
-            before = equation.relative_residual_squared
-            part = 1.0
-            trial = equation_at(inertia, subtract(equation[0], step), a, b)
-            for _ in range(MAX_HALVINGS):
-                if trial.relative_residual_squared < before:
-                    break
-                part *= 0.5
-                trial = equation_at(inertia, add_scaled(equation[0], -part, step), a, b)
-            equation = trial
-            iterations += 1
-            if equation.relative_residual_squared <= CONVERGED_RESIDUAL**2:
-                break
-            if not equation.relative_residual_squared < before:
-                break
-        return equation, DriftReport(equation.relative_residual_squared, on_rest_branch, iterations, DAMPED)
-
-    return damped_newton
 
 
 def make_continuation(scheme: DriftScheme) -> Solve:
@@ -163,9 +140,9 @@ def transport_momentum(
 ) -> Spatial:
     """Return the body momentum after a free step, by coadjoint transport.
 
-    b' = R_f^T b and a' = R_f^T (a - l x b), with l the displacement in the body frame before: the spatial momentum is kept
-    whatever the solver left over. R_f is taken as the rotation from the old attitude to the new, through the world: the
-    rounding errors of a steady motion's constant R_f would add up over a million steps, these average out.
+    b' = R_f^T b and a' = R_f^T (a - l x b), with l the displacement in the body frame before: the spatial momentum is
+    kept whatever the solver left over. R_f is taken as the rotation from the old attitude to the new, through the
+    world: the rounding errors of a steady motion's constant R_f would add up over a million steps, these average out.
     """
     angular = subtract(momentum.angular, cross(displacement_body, momentum.linear))
     return Spatial(
@@ -222,17 +199,14 @@ def make_drift(scheme: DriftScheme) -> Drift:
 
 
 def make_robust_drift(scheme: DriftScheme) -> Drift:
-    """Return the drift for steps that the fast one does not solve: damped, continued, split, in this order."""
-    damped = make_drift_by(scheme, make_damped_newton(scheme))
+    """Return the drift for steps that the fast one does not solve: continued from rest, else split."""
     continued = make_drift_by(scheme, make_continuation(scheme))
     split = make_split_drift(make_drift(scheme))
 
     def robust_drift(
         inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
     ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        outcome = damped(inertia, h, pose, momentum)
-        if not drift_accepted(outcome[2]):
-            outcome = continued(inertia, h, pose, momentum)
+        outcome = continued(inertia, h, pose, momentum)
         if not drift_accepted(outcome[2]):
             outcome = split(inertia, h, pose, momentum)
         return outcome

@@ -10,7 +10,7 @@ CONVERGED_RESIDUAL = 1e-14
 ACCEPTED_RESIDUAL = 1e-10
 """Relative residual up to which a solution may be used."""
 
-DIRECT, DAMPED, CONTINUED, SPLIT = range(4)
+DIRECT, CONTINUED, SPLIT = range(3)
 """How a step was solved: by plain Newton, or by what had to come to its rescue."""
 
 
@@ -23,7 +23,7 @@ class DriftReport(NamedTuple):
             positive definite and no real eigenvalue has crossed zero; the sign of the determinant alone would miss
             two that cross together, as they do for an axisymmetric body.
         iterations: Newton iterations taken.
-        method: DIRECT, DAMPED, CONTINUED or SPLIT.
+        method: DIRECT, CONTINUED or SPLIT.
     """
 
     relative_residual_squared: float

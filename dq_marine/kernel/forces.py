@@ -5,8 +5,8 @@ A force is a plain function of its parameters and of where the body is:
     pose force      (parameters, pose, time) -> wrench
     velocity force  (parameters, pose, twist, time) -> wrench
 
-with the pose body to NED, the twist relative to the water in the body frame, and the wrench about the body origin in the
-body frame, both as `Spatial`. Anyone can write one (see `dq_marine.terms.ForceTerm`); it is compiled like the
+with the pose body to NED, the twist relative to the water in the body frame, and the wrench about the body origin in
+the body frame, both as `Spatial`. Anyone can write one (see `dq_marine.terms.ForceTerm`); it is compiled like the
 kernel's own. Forces that are not there cost nothing.
 """
 
@@ -71,8 +71,8 @@ def make_forced_kick(
 ) -> ForcedKick:
     """Return (forces' parameters, inertia, kick's parameters, pose, momentum, time, wrench) -> momentum.
 
-    The forces' parameters are the pair (of the pose forces, of the velocity forces). Velocity forces are explicit: taken at
-    the start for a first kick, then at the mean of start and its end, which makes the kick of second order.
+    The forces' parameters are the pair (of the pose forces, of the velocity forces). Velocity forces are explicit: taken
+    at the start for a first kick, then at the mean of start and its end, which makes the kick of second order.
     """
     add_pose_forces = join_pose_forces(pose_forces)
 

@@ -16,8 +16,8 @@ velocity,
 
     M chi_k + (h/2) D(chi_k) chi_k = mu_k- + (h/2) F,     mu_k+ = M chi_k + (h/2) (F - D(chi_k) chi_k)   (K4)
 
-so the kick that closes a step is implicit and the one that opens the next explicit: the whole step stays symmetric. It is
-A-stable only, and rings where damping is stiff.
+so the kick that closes a step is implicit and the one that opens the next explicit: the whole step stays symmetric. It
+is A-stable only, and rings where damping is stiff.
 
 Every kick has the signature (kick, inertia, momentum, wrench) -> momentum.
 """

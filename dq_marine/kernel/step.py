@@ -100,7 +100,7 @@ Advance: TypeAlias = Callable[[StepParameters, BodyState, Spatial, float, int], 
 
 
 def make_advance(composition: Composition) -> Advance:
-    """Return (parameters, state, wrench, time, steps) -> outcome: `steps` steps from `time` under a constant body wrench.
+    """Return (parameters, state, wrench, time, steps) -> outcome: steps from `time` on, under a constant body wrench.
 
     A step that the drift refuses ends the call; the outcome's state is then the one handed in.
     """

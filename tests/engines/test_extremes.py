@@ -25,7 +25,9 @@ def test_a_million_free_steps(scheme):
         spread.append(body.kinetic_energy / energy - 1.0)
         # Angular momentum about the world origin, from which the body drifts away for 20,000 s.
         reach = np.linalg.norm(momentum) * (1.0 + np.linalg.norm(body.position_ned))
-        worst = max(worst, np.abs(body.spatial_momentum[:3] - momentum[:3]).max() / np.linalg.norm(momentum[:3]))
+        worst = max(
+            worst, np.abs(body.spatial_momentum[:3] - momentum[:3]).max() / np.linalg.norm(momentum[:3])
+        )
         worst = max(worst, np.abs(body.spatial_momentum[3:] - momentum[3:]).max() / reach)
     assert body.steps_taken == 1_000_000
     assert worst < 1e-12
@@ -64,14 +66,24 @@ def test_fast_spins_about_any_axis(spin):
 
 
 @settings(max_examples=60, deadline=None)
-@given(seeds, st.floats(0.0, 8.0), st.floats(-3.0, 9.0), st.floats(-2.0, 2.0), st.sampled_from(["midpoint", "paper"]))
+@given(
+    seeds,
+    st.floats(0.0, 8.0),
+    st.floats(-3.0, 9.0),
+    st.floats(-2.0, 2.0),
+    st.sampled_from(["midpoint", "paper"]),
+)
 def test_any_condition_any_mass_any_speed(seed, log_condition, log_mass, log_speed, scheme):
     """Condition up to 1e8, 1 g to 1e9 kg, 1e6 m from the origin: momentum kept, or refused; always finite."""
     rng = np.random.default_rng(seed)
     m = 10.0**log_mass * random_inertia(rng, 10.0**log_condition)
     body = make_body(m, 0.05, scheme=scheme)
     velocity = rng.normal(size=6)
-    body.reset(1e6 * rng.normal(size=3), random_quaternion(rng), velocity * 10.0**log_speed / np.linalg.norm(velocity))
+    body.reset(
+        1e6 * rng.normal(size=3),
+        random_quaternion(rng),
+        velocity * 10.0**log_speed / np.linalg.norm(velocity),
+    )
     momentum, before = body.spatial_momentum, body.get_state()
     try:
         body.step(steps=20)

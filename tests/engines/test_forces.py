@@ -63,7 +63,9 @@ def test_a_spring_swings_as_it_should(order, tolerance):
     """X = cos(omega t), omega = sqrt(k/m): a force that depends on the position."""
     steps, measured = np.array([0.1, 0.05, 0.025]), []
     for h in steps:
-        body = make_body(np.diag([2.0] * 3 + [1.0] * 3), h, order=order, forces=(ForceTerm("spring", spring, Spring(8.0)),))
+        body = make_body(
+            np.diag([2.0] * 3 + [1.0] * 3), h, order=order, forces=(ForceTerm("spring", spring, Spring(8.0)),)
+        )
         body.reset((1.0, 0.0, 0.0))
         body.step(steps=round(2.0 / h))
         measured.append(abs(body.position_ned[0] - math.cos(4.0)))
@@ -76,7 +78,9 @@ def test_a_force_may_depend_on_time(order, pieces):
     """M x'' = a cos(w t) from rest; time goes on from call to call."""
     steps, measured = np.array([0.1, 0.05, 0.025]), []
     for h in steps:
-        body = make_body(np.diag([2.0] * 3 + [1.0] * 3), h, order=order, forces=(ForceTerm("wave", wave, Wave(3.0, 2.0)),))
+        body = make_body(
+            np.diag([2.0] * 3 + [1.0] * 3), h, order=order, forces=(ForceTerm("wave", wave, Wave(3.0, 2.0)),)
+        )
         for _ in range(pieces):
             body.step(steps=round(2.0 / h / pieces))
         measured.append(abs(body.position_ned[0] - 3.0 / 2.0 / 4.0 * (1.0 - math.cos(4.0))))
@@ -144,7 +148,11 @@ def test_the_implicit_node_kick_is_of_second_order(full):
     rng = np.random.default_rng(9)
     m, velocity, wrench = random_inertia(rng), rng.normal(size=6), rng.normal(size=6)
     velocity = np.sign(velocity) * (0.6 + np.abs(velocity))
-    case = {"quadratic": np.ones(6), "excess_weight": 1.0, "linear": random_damping(rng) if full else np.eye(6)}
+    case = {
+        "quadratic": np.ones(6),
+        "excess_weight": 1.0,
+        "linear": random_damping(rng) if full else np.eye(6),
+    }
     reference = solve(m, np.zeros(3), (1.0, 0.0, 0.0, 0.0), velocity, 0.5, wrench=wrench, **case)
     counts, measured = np.array([50, 100, 200]), []
     for count in counts:
@@ -172,6 +180,12 @@ def test_the_implicit_node_kick_rings_when_stiff_and_the_default_does_not():
 
 
 def test_the_implicit_node_kick_reaches_the_exact_terminal_velocity():
-    body = make_body(np.diag([19.86] * 3 + [0.4] * 3), 0.1, linear=13.7 * np.eye(6), quadratic=np.full(6, 141.0), l_stable=False)
+    body = make_body(
+        np.diag([19.86] * 3 + [0.4] * 3),
+        0.1,
+        linear=13.7 * np.eye(6),
+        quadratic=np.full(6, 141.0),
+        l_stable=False,
+    )
     body.step((40.0, 0.0, 0.0, 0.0, 0.0, 0.0), 2000)
     assert body.velocity_body[0] == pytest.approx(0.4862530975891999, rel=1e-12)
