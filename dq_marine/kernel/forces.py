@@ -71,8 +71,8 @@ def make_forced_kick(
 ) -> ForcedKick:
     """Return (forces' parameters, inertia, kick's parameters, pose, momentum, time, wrench) -> momentum.
 
-    The forces' parameters are the pair (of the pose forces, of the velocity forces). Velocity forces are explicit: taken
-    at the start for a first kick, then at the mean of start and its end, which makes the kick of second order.
+    The forces' parameters are the pair (of the pose forces, of the velocity forces). Velocity forces are explicit:
+    taken at the start for a first kick, then at the mean of start and its end, which makes the kick of second order.
     """
     add_pose_forces = join_pose_forces(pose_forces)
 
