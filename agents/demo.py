@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from pathlib import Path
 
 from rich.console import Console
@@ -12,6 +10,7 @@ from dq_marine.agents.dp_controller import DPController
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT
 from dq_marine.agents.flight import FlightPlan, Outputs, episode_table, fly
 from dq_marine.errors import InvalidInputError
+from dq_marine.viewer.live import display_present
 
 PLAN = FlightPlan(
     DEFAULT_ENVIRONMENT,
@@ -59,8 +58,3 @@ def run_demo(folder: Path, console: Console) -> None:
     if display_present():
         console.print("Now the same, live and at real time (Ctrl-C ends it):")
         fly(PLAN, DPController.for_env, Outputs(live=True), title=TITLE)
-
-
-def display_present() -> bool:
-    """Whether a browser could open a window here."""
-    return sys.platform == "darwin" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))

@@ -74,7 +74,7 @@ class Scene:
         if kick not in KICKS:
             raise InvalidInputError(f"kick = {kick!r} is unknown; give one of {list(KICKS)}")
         self.kick = kick
-        self.forces = tuple(checked_force(force) for force in forces)
+        self.forces = checked_forces(forces)
         self._check_restoring_step()
         mass_matrix = self.vehicle.mass_matrix
         damping = DampingTerm(
@@ -182,6 +182,17 @@ class Scene:
                 f"{self.step * fastest:.3g} with omega = {fastest:.3g} rad/s must stay below 2; give a step "
                 f"below {2.0 / fastest:.3g} s (0.1 of it for accuracy)"
             )
+
+
+def checked_forces(forces: Sequence[ForceTerm]) -> tuple[ForceTerm, ...]:
+    """Return the forces, each checked by `checked_force`.
+
+    Raises:
+        InvalidInputError: one is wrong, or they are no sequence.
+    """
+    if isinstance(forces, ForceTerm) or not isinstance(forces, Sequence):
+        raise InvalidInputError(f"forces = {forces!r}; give a list of dq_marine.terms.ForceTerm")
+    return tuple(checked_force(force) for force in forces)
 
 
 def checked_force(force: ForceTerm) -> ForceTerm:

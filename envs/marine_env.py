@@ -30,6 +30,9 @@ from dq_marine.scene import Scene
 from dq_marine.vehicles import Vehicle, load_vehicle
 from dq_marine.viewer.snapshot import Snapshot
 
+MOST_SUBSTEPS = 10_000
+"""Integrator steps in a control period: more would hold the process for long, and never be needed."""
+
 Observation = NDArray[np.float32]
 Action = NDArray[np.float32]
 
@@ -58,6 +61,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.vehicle = load_vehicle(vehicle)
         self.control_period = finite_number("control_period", control_period, above=0.0)
         self.substeps = positive_integer("substeps", substeps)
+        if self.substeps > MOST_SUBSTEPS:
+            raise InvalidInputError(f"substeps = {self.substeps}; give at most {MOST_SUBSTEPS}")
         self.current_speed, self.current_ned = drawn_speed_and_fixed_current(current)
         largest = np.array([self.current_speed, 0.0, 0.0]) + self.current_ned
         step = self.control_period / self.substeps

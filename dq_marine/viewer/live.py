@@ -5,15 +5,15 @@ from __future__ import annotations
 import os
 import sys
 import webbrowser
-from types import TracebackType
 
+from dq_marine.viewer.closable import Closable
 from dq_marine.viewer.drawing import checked_floor_depth
 from dq_marine.viewer.server_process import ServerProcess
 from dq_marine.viewer.snapshot import Shape, Snapshot
 from dq_marine.viewer.stage import Stage
 
 
-class LiveViewer:
+class LiveViewer(Closable):
     """Shows snapshots in every browser of this computer that has the viewer's page open.
 
     Example:
@@ -38,7 +38,7 @@ class LiveViewer:
         floor_depth = checked_floor_depth(floor_depth)
         self._server = ServerProcess()
         self._stage = Stage(self._server, shape, floor_depth)
-        if open_browser and _display_present():
+        if open_browser and display_present():
             webbrowser.open(self.url)
 
     @property
@@ -65,19 +65,8 @@ class LiveViewer:
         """End the viewer's server; open pages keep the last picture. May be called again."""
         self._server.close()
 
-    def __enter__(self) -> LiveViewer:
-        return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        self.close()
-
-
-def _display_present() -> bool:
+def display_present() -> bool:
     """Whether a browser could open a window here."""
     if sys.platform in ("darwin", "win32"):
         return True

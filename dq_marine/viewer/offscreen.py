@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from types import TracebackType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 from dq_marine.errors import InvalidInputError
 from dq_marine.viewer.browser import HeadlessBrowser, find_chromium
 from dq_marine.viewer.caption import write_caption
+from dq_marine.viewer.closable import Closable
 from dq_marine.viewer.drawing import checked_floor_depth
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.extras import optional_module
@@ -26,7 +26,7 @@ LARGEST_SIDE = 8192
 """Pixels; WebGL promises no more."""
 
 
-class OffscreenViewer:
+class OffscreenViewer(Closable):
     """Draws snapshots in a browser without a window and returns what it shows."""
 
     def __init__(
@@ -97,17 +97,6 @@ class OffscreenViewer:
         """End server and browser. May be called again."""
         self._browser.close()
         self._server.close()
-
-    def __enter__(self) -> OffscreenViewer:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _check_browser(self) -> None:
         if not self._browser.running:

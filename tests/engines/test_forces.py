@@ -131,6 +131,12 @@ def test_a_wrong_force_is_refused(force, message):
         Scene(forces=[force])
 
 
+@pytest.mark.parametrize("forces", [3, ForceTerm("weight", weight, (1.0,)), "weight"])
+def test_forces_are_a_list(forces):
+    with pytest.raises(InvalidInputError, match=r"list of|ForceTerm"):
+        Scene(forces=forces)
+
+
 def test_a_scene_says_what_forces_it_has_and_refuses_what_they_forbid():
     term = ForceTerm("drag", drag, (1.0,), uses_velocity=True)
     assert "drag" in Scene(forces=[term]).terms

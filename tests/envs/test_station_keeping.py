@@ -309,6 +309,7 @@ def test_actions_saturate():
         ({"control_period": 0.0}, "control_period"),
         ({"substeps": 0}, "substeps"),
         ({"substeps": 2.5}, "substeps"),
+        ({"substeps": 10**9}, "at most"),
         ({"scheme": "rk4"}, "scheme"),
         ({"reward": {"speed": 1.0}}, r"speed.*precision"),
         ({"reward": {"position_width": 0.0}}, "position_width"),
