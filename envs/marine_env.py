@@ -41,6 +41,13 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     """One vehicle in a uniform current, driven by body thrust and torque.
 
     A task derives from it, names its kernel functions in `task` and says how goals and starts are drawn.
+
+    Attributes:
+        vehicle: the validated vehicle.
+        scene: what is integrated, with the largest current that may be drawn.
+        control_period: time between actions [s].
+        substeps: integrator steps in a control period.
+        substeps_rescued: of all taken so far, those that plain Newton did not solve (see `kernel.drift`).
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 10}  # type: ignore[misc]
@@ -82,6 +89,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
         self._view = EpisodeView(self)
+        self.substeps_rescued = 0
         self._episode: Episode | None = None
         self._parameters = self._base_parameters
 
@@ -163,7 +171,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """
         episode = self._running("step")
         command = self._command(action)
-        status, completed, _, residual_squared, reward, terminated = self._compiled(
+        status, completed, rescued, residual_squared, reward, terminated = self._compiled(
             episode.parameters,
             episode.aim,
             episode.state,
@@ -178,6 +186,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             raise InvalidInputError(
                 f"action = {np.asarray(action).tolist()} is not finite; give finite numbers"
             )
+        self.substeps_rescued += rescued
         episode.action = command
         episode.periods += 1
         info = self._info()

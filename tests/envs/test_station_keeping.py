@@ -363,6 +363,16 @@ def test_nothing_works_before_reset():
 # Refusals
 
 
+@pytest.mark.parametrize("scheme", ["midpoint", "paper"])
+def test_a_rescued_step_is_counted_and_the_episode_goes_on(scheme):
+    env = StationKeepingEnv(scheme=scheme, substeps=1, control_period=0.5, workspace_radius=1e3)
+    env.reset(seed=0, options={"velocity": (30.0, 30.0, 0.0, 5.0, 80.0, 9.0), "position": (0.0, 0.0, 5.0)})
+    *_, terminated, _, info = env.step(np.zeros(6))
+    assert env.substeps_rescued == 1
+    assert not terminated
+    assert "integration" not in info
+
+
 def test_a_refused_step_ends_the_episode_and_says_why():
     env = StationKeepingEnv(substeps=1, control_period=0.5, workspace_radius=1e4, start_radius=1.0)
     observation, _ = env.reset(
