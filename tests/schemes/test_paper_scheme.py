@@ -14,9 +14,16 @@ from support.order import observed_order
 from dq_marine.errors import StepNotSolvableError
 from dq_marine.kernel.body import BodyState, spatial_momentum
 from dq_marine.kernel.drift import make_drift
-from dq_marine.kernel.drift_report import drift_accepted
+from dq_marine.kernel.drift_report import CONTINUED, drift_accepted
 from dq_marine.kernel.dual_quaternion import pose_from_parts
-from dq_marine.kernel.paper_drift import PAPER, paper_drift, paper_equation, paper_increment, paper_jacobian
+from dq_marine.kernel.paper_drift import (
+    PAPER,
+    paper_drift,
+    paper_equation,
+    paper_increment,
+    paper_jacobian,
+    paper_rescue,
+)
 from dq_marine.kernel.spatial import Spatial, to_fossen
 from dq_marine.terms import angular_first, inertia_term
 
@@ -215,7 +222,11 @@ def test_erratum_increment_limit_is_90_degrees():
 
 
 def pose_after_one_paper_step(body):
-    pose, _, report = paper_drift(body.parameters.inertia, body.step_size, *body.state)
+    inertia, h, state = body.parameters.inertia, body.step_size, body.state
+    pose, _, report = paper_drift(inertia, h, *state)
+    if not drift_accepted(report):  # near the limit Newton is slow, and the solution is followed from rest
+        pose, _, report = paper_rescue(inertia, h, *state)
+        assert report.method == CONTINUED
     assert drift_accepted(report)
     return pose.real
 
