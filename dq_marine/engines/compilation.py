@@ -6,6 +6,7 @@ import functools
 import hashlib
 import importlib
 import inspect
+import marshal
 import os
 import pkgutil
 import tempfile
@@ -15,12 +16,16 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 import numba
+import numpy as np
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 from numba.extending import overload, register_jitable
 
 import dq_marine.engines
 import dq_marine.kernel
 from dq_marine.announce import announce
+
+CONSTANT_TYPES = (bool, int, float, complex, str, tuple, np.ndarray)
+"""What compiled code takes as it stood when it was compiled."""
 
 CACHE_DIRECTORY_VARIABLE = "DQ_MARINE_CACHE_DIR"
 
@@ -39,12 +44,28 @@ def modules_of(package: ModuleType) -> list[ModuleType]:
     return [importlib.import_module(f"{package.__name__}.{name}") for name in names]
 
 
-def used_functions(function: Callable[..., Any]) -> list[FunctionType]:
-    """Return the plain Python functions that a function closes over or calls by a name of its module."""
+def outside_values(function: Callable[..., Any]) -> list[Any]:
+    """Return what a function closes over or uses by a name of its module; compiled code takes it as constant."""
     cells = [cell.cell_contents for cell in getattr(function, "__closure__", None) or ()]
     code, names = function.__code__, function.__globals__
-    values = cells + [names[name] for name in code.co_names if name in names]
-    return [value for value in values if inspect.isfunction(value)]
+    return cells + [names[name] for name in code.co_names if name in names]
+
+
+def used_functions(function: Callable[..., Any]) -> list[FunctionType]:
+    """Return the plain Python functions among a function's outside values."""
+    return [value for value in outside_values(function) if inspect.isfunction(value)]
+
+
+def constants_of(function: Callable[..., Any]) -> str:
+    """Return the numbers, texts and arrays among a function's outside values, to tell it from its likes."""
+    values = [value for value in outside_values(function) if isinstance(value, CONSTANT_TYPES)]
+    return repr([value.tolist() if isinstance(value, np.ndarray) else value for value in values])
+
+
+def text_of(function: Callable[..., Any]) -> bytes:
+    """Return the source file that defines a function, or its code where there is no such file."""
+    file = inspect.getsourcefile(function)
+    return Path(file).read_bytes() if file and os.path.exists(file) else marshal.dumps(function.__code__)
 
 
 def all_used_functions(function: Callable[..., Any]) -> list[FunctionType]:
@@ -69,18 +90,19 @@ def make_compilable(function: FunctionType) -> None:
 
 
 @functools.cache
-def source_fingerprint(files: frozenset[str]) -> str:
-    """Return a hash over the sources of the kernel, of the engines and of the given files."""
-    own = {
-        str(module.__file__)
-        for package in (dq_marine.kernel, dq_marine.engines)
-        for module in modules_of(package)
-    }
+def own_fingerprint() -> bytes:
+    """Return a hash over the sources of the kernel and of the engines."""
     digest = hashlib.sha256()
-    for file in sorted(own | files):
-        content = Path(file).read_bytes() if os.path.exists(file) else file.encode()
-        digest.update(hashlib.sha256(content).digest())
-    return digest.hexdigest()[:20]
+    for package in (dq_marine.kernel, dq_marine.engines):
+        for module in modules_of(package):
+            digest.update(hashlib.sha256(Path(str(module.__file__)).read_bytes()).digest())
+    return digest.digest()
+
+
+def source_fingerprint(parts: list[Callable[..., Any]]) -> str:
+    """Return a hash over the sources of the kernel, of the engines and of the given functions."""
+    texts = {hashlib.sha256(text_of(part)).digest() for part in parts}
+    return hashlib.sha256(b"".join([own_fingerprint(), *sorted(texts)])).hexdigest()[:20]
 
 
 def name_of(function: Callable[..., Any]) -> str:
@@ -118,7 +140,7 @@ class _CompositionCache(FunctionCache):
     """Numba's cache with a key that follows the composition.
 
     Numba keys a closure on a pickle of its cells, which differs from process to process when a cell holds a
-    function; here the functions' names stand for them, and the fingerprint for their text.
+    function; here the functions' names and constants stand for them, and the fingerprint for their text.
     """
 
     def __init__(self, function: Callable[..., Any], key: str, fingerprint: str) -> None:
@@ -169,9 +191,8 @@ def compile_function(
     compiled = numba.njit(error_model="numpy", nogil=True)(function)
     if _writable(cache_directory()):
         parts: list[Callable[..., Any]] = [function, *used]
-        files = frozenset(inspect.getsourcefile(part) or name_of(part) for part in parts)
-        cache = _CompositionCache(function, f"{name_of(function)}|{layout}", source_fingerprint(files))
-        compiled._cache = cache
+        key = "|".join([name_of(function), layout, *map(constants_of, parts)])
+        compiled._cache = _CompositionCache(function, key, source_fingerprint(parts))
     return compiled
 
 

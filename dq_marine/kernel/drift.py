@@ -35,9 +35,7 @@ from dq_marine.kernel.spatial import Spatial, spatial_scale
 from dq_marine.kernel.vector3 import Vector3, cross, dot, scale, subtract
 
 MAX_ITERATIONS = 12
-SHRINKING = (
-    0.01  # of the squared correction, from one iteration to the next: at most a tenth of the one before
-)
+SHRINKING = 0.01  # of the squared correction from one iteration to the next: a tenth of the one before
 NEGLIGIBLE_CORRECTION = 1e-20  # of the squared correction, in quarter angles
 MAX_CONTINUATION_SOLVES = 64
 SMALLEST_CONTINUATION_STEP = 1.0 / 256.0

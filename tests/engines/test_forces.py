@@ -108,6 +108,34 @@ def test_a_force_may_depend_on_velocity(order, tolerance):
         assert observed_order(0.5 / counts, series) == pytest.approx(order, abs=tolerance)
 
 
+def make_push(force):
+    def push(parameters, pose, time):
+        return Spatial(NO_MOMENT, (force, 0.0, 0.0))
+
+    return push
+
+
+def test_a_force_that_closes_over_a_number_is_not_taken_for_another(tmp_path, monkeypatch):
+    """Compiled code holds the number as a constant, so the cache on disk must tell two such functions apart."""
+    monkeypatch.setenv("DQ_MARINE_CACHE_DIR", str(tmp_path))
+    for force in (1.0, 2.0):
+        body = make_body(np.eye(6), 0.1, forces=(ForceTerm("push", make_push(force), ()),))
+        body.step(steps=10)
+        assert body.velocity_body[0] == pytest.approx(force)
+
+
+def test_a_force_typed_at_a_prompt_is_told_from_its_earlier_version(tmp_path, monkeypatch):
+    """Without a source file the code itself enters the key."""
+    monkeypatch.setenv("DQ_MARINE_CACHE_DIR", str(tmp_path))
+    for force in (1.0, 2.0):
+        names = {"Spatial": Spatial, "__name__": "__main__"}
+        text = f"def push(p, pose, time): return Spatial((0.0, 0.0, 0.0), ({force}, 0.0, 0.0))"
+        exec(compile(text, "<prompt>", "exec"), names)
+        body = make_body(np.eye(6), 0.1, forces=(ForceTerm("push", names["push"], ()),))
+        body.step(steps=10)
+        assert body.velocity_body[0] == pytest.approx(force)
+
+
 def no_spatial(parameters, pose, time):
     return (0.0, 0.0, 0.0)
 
