@@ -92,6 +92,7 @@ class Assembly:
         """Return the numbers of the step for a step size [s]."""
         return StepParameters(
             inertia=inertia_term(self.mass_matrix),
+            damping=self.damping.matrices,
             forces=(nested_parameters(self._pose_forces), nested_parameters(self._velocity_forces)),
             water=UniformCurrent(vector3(self.current_ned)) if self.current_ned.any() else (),
             timing=self._timing(step),

@@ -18,7 +18,7 @@ import numpy as np
 from numba import types
 
 from dq_marine.engines.compilation import compile_function
-from dq_marine.engines.packing import make_load, pack, store, structure_type, unpack
+from dq_marine.engines.packing import make_load, pack, rebuild, store, structure_type, unpack
 
 
 def batched(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -42,7 +42,7 @@ def batched(function: Callable[..., Any]) -> Callable[..., Any]:
         result = function(*sample)
         results = np.empty((len(numbers), len(pack(result))))
         _compiled(function, structure_type(sample))(numbers, results)
-        return _nest(result, iter([np.reshape(column, shape) for column in results.T]))
+        return rebuild(result, iter([np.reshape(column, shape) for column in results.T]))
 
     return on_arrays
 
@@ -66,11 +66,3 @@ def _components(structure: Any) -> Iterator[Any]:
             yield from _components(part)
     else:
         yield structure
-
-
-def _nest(like: Any, components: Iterator[Any]) -> Any:
-    """Return nested tuples shaped as `like`, of the given components."""
-    if not isinstance(like, tuple):
-        return next(components)
-    parts = [_nest(part, components) for part in like]
-    return type(like)(*parts) if hasattr(like, "_fields") else tuple(parts)

@@ -72,3 +72,46 @@ def finite_number(name: str, value: Any, *, above: float | None = None) -> float
         limit = "finite" if above is None else f"finite and above {above:g}"
         raise InvalidInputError(f"{name} = {number:g} is not {limit}; give one that is")
     return number
+
+
+def finite_rows(name: str, value: ArrayLike, rows: int, size: int) -> NDArray[np.float64]:
+    """Return `value`, one row for all or one for each, as a float64 array of shape (rows, size).
+
+    It is returned as it is, not copied, if it is such an array already.
+
+    Raises:
+        InvalidInputError: it is not numeric, of another shape, or has a NaN or an infinity.
+    """
+    try:
+        array = np.ascontiguousarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidInputError(f"{name} is not numeric; give numbers of shape ({rows}, {size})") from error
+    if array.shape == (size,):
+        array = np.tile(array, (rows, 1))
+    if array.shape != (rows, size):
+        raise InvalidInputError(f"{name} has shape {array.shape}; give shape ({rows}, {size}) or ({size},)")
+    # The sum is finite unless a component is not, or numbers near the largest add up beyond it: look closer then.
+    if not np.isfinite(array.sum()):
+        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
+        if bad.size:
+            raise InvalidInputError(
+                f"{name}[{bad[0]}] = {array[bad[0]].tolist()} is not finite; give finite numbers"
+            )
+    return array
+
+
+def unit_quaternion_rows(name: str, value: ArrayLike, rows: int) -> NDArray[np.float64]:
+    """Return `value`, one row for all or one for each, as quaternions of exactly unit length, shape (rows, 4).
+
+    Raises:
+        InvalidInputError: as for `finite_rows`, or a length is not 1 to 1e-6.
+    """
+    q = finite_rows(name, value, rows, 4)
+    lengths = np.linalg.norm(q, axis=1)
+    bad = np.flatnonzero(np.abs(lengths - 1.0) > 1e-6)
+    if bad.size:
+        raise InvalidInputError(
+            f"{name}[{bad[0]}] has length {lengths[bad[0]]:.9g}; give unit quaternions, scalar first"
+        )
+    unit: NDArray[np.float64] = q / lengths[:, None]
+    return unit

@@ -19,6 +19,7 @@ from dq_marine.terms import DampingTerm, ForceTerm, restoring_terms
 from dq_marine.vehicles import Vehicle, load_vehicle
 
 if TYPE_CHECKING:
+    from dq_marine.engines.batch import Batch
     from dq_marine.engines.one_body import OneBody
 
 KICKS = ("l_stable", "implicit_node")
@@ -135,6 +136,28 @@ class Scene:
 
         return OneBody(self.composition, self.parameters_at, self.step)
 
+    def batch(
+        self,
+        size: int,
+        *,
+        threads: int | None = None,
+        precision: str = "float64",
+        arithmetic: str = "strict",
+    ) -> Batch:
+        """Return many bodies at rest at the world's origin, with the step compiled for SIMD lanes.
+
+        Args:
+            size: number of bodies.
+            threads: None for all cores that the process may use.
+            precision: "float64" or "float32", of which a vector holds twice as many.
+            arithmetic: "strict", with the bits of a single body, or "fast": multiply-adds are fused and sums
+                reordered, with other rounding errors.
+
+        Raises:
+            InvalidInputError: a value is wrong.
+        """
+        return batch_of([self], size, threads=threads, precision=precision, arithmetic=arithmetic)
+
     @property
     def restoring_frequencies(self) -> NDArray[np.float64]:
         """Undamped natural angular frequencies [rad/s] about the stable upright or inverted attitude, shape (2,).
@@ -182,6 +205,36 @@ class Scene:
                 f"{self.step * fastest:.3g} with omega = {fastest:.3g} rad/s must stay below 2; give a step "
                 f"below {2.0 / fastest:.3g} s (0.1 of it for accuracy)"
             )
+
+
+def batch_of(
+    scenes: Sequence[Scene],
+    size: int | None = None,
+    *,
+    threads: int | None = None,
+    precision: str = "float64",
+    arithmetic: str = "strict",
+) -> Batch:
+    """Return bodies of different vehicles and currents, at rest at the world's origin, in SIMD lanes.
+
+    What is the same in all scenes is stored and loaded once; what differs, for each body.
+
+    Args:
+        scenes: one for each body, alike in what they compute and in their step; or a single one for `size` bodies.
+        size: number of bodies, with a single scene.
+        threads: see `Scene.batch`.
+        precision: see `Scene.batch`.
+        arithmetic: see `Scene.batch`.
+
+    Raises:
+        InvalidInputError: the scenes differ in their terms or step, or a value is wrong.
+    """
+    from dq_marine.engines.batch import Batch  # here: it imports Numba
+
+    if not scenes or (size is not None and len(scenes) not in (1, size)):
+        raise InvalidInputError(f"{len(scenes)} scenes for {size} bodies; give one, or one for each body")
+    bodies = len(scenes) if size is None else size
+    return Batch(scenes, bodies, threads=threads, precision=precision, arithmetic=arithmetic)
 
 
 def checked_forces(forces: Sequence[ForceTerm]) -> tuple[ForceTerm, ...]:

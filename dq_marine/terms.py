@@ -142,9 +142,7 @@ class DampingTerm(NamedTuple):
         half = 0.5 * step
         if self.name and not self.l_stable:
             opening, closing, between = ((0.0, half), (half, 0.0), (half, half))
-            return StrangTiming(
-                step, *(NodeKick(*durations, self._matrices) for durations in (opening, closing, between))
-            )
+            return StrangTiming(step, NodeKick(*opening), NodeKick(*closing), NodeKick(*between))
         return StrangTiming(
             step, self._kick_parameters(half), self._kick_parameters(half), self._kick_parameters(step)
         )
@@ -154,7 +152,10 @@ class DampingTerm(NamedTuple):
         return not (self.linear - np.diag(np.diag(self.linear))).any()
 
     @property
-    def _matrices(self) -> DiagonalDamping | FullDamping:
+    def matrices(self) -> DiagonalDamping | FullDamping | tuple[()]:
+        """What the kick needs to know whatever its duration: nothing, if it can be prepared for each."""
+        if not self.name or (self.l_stable and not self.quadratic.any()):
+            return ()
         coefficients = spatial(self.quadratic)
         if self._is_diagonal:
             return DiagonalDamping(spatial(np.diag(self.linear).copy()), coefficients)
@@ -162,7 +163,7 @@ class DampingTerm(NamedTuple):
 
     def _kick_parameters(self, duration: float) -> UndampedKick | LinearKick | QuadraticKick:
         if self.quadratic.any():
-            return QuadraticKick(duration, self._matrices)
+            return QuadraticKick(duration)
         return self._linear_kick(duration) if self.linear.any() else UndampedKick(duration)
 
     def _linear_kick(self, h: float) -> LinearKick:

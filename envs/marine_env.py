@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
@@ -15,18 +16,20 @@ from numpy.typing import NDArray
 
 from dq_marine.checks import finite_number, positive_integer
 from dq_marine.engines.control_period import ACTION_NOT_FINITE, compiled_control_period
-from dq_marine.engines.one_body import AT_REST, REFUSALS, place_body
+from dq_marine.engines.one_body import REFUSALS
 from dq_marine.engines.packing import pack, structure_type, unpack
 from dq_marine.envs.episode import Episode
-from dq_marine.envs.start import Start, checked_options, drawn_speed_and_fixed_current
+from dq_marine.envs.start import AT_ORIGIN, as_chosen, checked_options, drawn_speed_and_fixed_current
 from dq_marine.envs.view import EpisodeView
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.body import BodyState, Motion
-from dq_marine.kernel.current import UniformCurrent
+from dq_marine.kernel.beginning import CURRENT_DRAWS, CurrentDraw, Drawn, make_beginning, make_draw
+from dq_marine.kernel.body import Motion
 from dq_marine.kernel.spatial import to_fossen
 from dq_marine.kernel.step import ACCEPTED, StepParameters, make_motion
 from dq_marine.kernel.task import Task
+from dq_marine.kernel.vector3 import dot
 from dq_marine.scene import Scene
+from dq_marine.terms import vector3
 from dq_marine.vehicles import Vehicle, load_vehicle
 from dq_marine.viewer.snapshot import Snapshot
 
@@ -71,6 +74,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         if self.substeps > MOST_SUBSTEPS:
             raise InvalidInputError(f"substeps = {self.substeps}; give at most {MOST_SUBSTEPS}")
         self.current_speed, self.current_ned = drawn_speed_and_fixed_current(current)
+        self.current_draw = CurrentDraw(vector3(self.current_ned), self.current_speed)
         largest = np.array([self.current_speed, 0.0, 0.0]) + self.current_ned
         step = self.control_period / self.substeps
         self.scene = Scene(self.vehicle, current=largest, scheme=scheme, step=step)
@@ -85,13 +89,13 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         bound = self.observation_bound
         self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self._axes),), np.float32)
         self.observation_space = gym.spaces.Box(-bound, bound, dtype=np.float32)
-        self._base_parameters = self.scene.parameters_at(step)
+        self.base_parameters = self.scene.parameters_at(step)
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
         self._view = EpisodeView(self)
         self.substeps_rescued = 0
         self._episode: Episode | None = None
-        self._parameters = self._base_parameters
+        self._parameters = self.base_parameters
 
     # What a task adds
 
@@ -105,20 +109,12 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """Return the task's parameters for an episode."""
 
     @abstractmethod
-    def new_memory(self) -> Any:
-        """Return the task's memory at an episode's start."""
-
-    @abstractmethod
-    def draw_start(self, aim: Any) -> Start:
-        """Draw where an episode starts, from `self.np_random`."""
-
-    @abstractmethod
     def goal_pose(self, aim: Any) -> tuple[Any, Any] | None:
         """Return the goal's position and attitude for drawing, None if there is none."""
 
     @abstractmethod
-    def succeeds(self, measures: dict[str, float]) -> bool:
-        """Whether the measures are those of success."""
+    def succeeds(self, measures: dict[str, Any]) -> Any:
+        """Whether the measures are those of success; for arrays of them, an array."""
 
     # Gymnasium
 
@@ -138,23 +134,14 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             InvalidInputError: an option is unknown or wrong; the episode in progress is untouched.
         """
         super().reset(seed=seed)
-        chosen = self._checked(options)
+        chosen = self.checked_options(options)
         aim = self.new_aim(chosen)
-        current = self._draw_current()
-        drawn = self.draw_start(aim)
-        current = chosen.get("current", current)
-        parameters = self._parameters_in(current)
-        state = place_body(
-            self.scene.composition,
-            parameters,
-            chosen.get("position", drawn.position_ned),
-            chosen.get("quaternion", drawn.quaternion_body_to_ned),
-            chosen.get("velocity", drawn.velocity_body),
-        )
-        self._episode = self._new_episode(parameters, aim, state, current)
-        self._parameters = parameters
+        uniforms = self.np_random.random(CURRENT_DRAWS + self.task.draws)
+        drawn = make_draw(self.task)(aim, self.current_draw, tuple(uniforms.tolist()))
+        self._episode = self._new_episode(aim, as_chosen(drawn, chosen))
+        self._parameters = self._parameters_in(self._episode.current_ned)
         self._view.begin(self)
-        return self.observation, self._info() | {"current_ned": np.array(current)}
+        return self.observation, self._info() | {"current_ned": self._episode.current_ned.copy()}
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
@@ -191,7 +178,9 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         episode.periods += 1
         info = self._info()
         if status != ACCEPTED:
-            info["integration"] = self._integration(status, completed, residual_squared)
+            velocity = self.motion.velocity
+            spin, speed = dot(velocity.angular, velocity.angular), dot(velocity.linear, velocity.linear)
+            info["integration"] = self.integration_report(status, completed, residual_squared, spin, speed)
         if self._view.wants_frames:
             self._view.show(self)
         return episode.observation.copy(), reward, terminated != 0.0, False, info
@@ -270,17 +259,47 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """
         if not isinstance(state, dict) or "random" not in state:
             raise InvalidInputError("the state is not what get_state() returned: it has no entry 'random'")
-        template = self._new_episode(self._base_parameters, self.new_aim({}), AT_REST, self.current_ned)
+        template = self._new_episode(self.new_aim({}), AT_ORIGIN)
         episode = template.restored({name: value for name, value in state.items() if name != "random"})
         random = np.random.default_rng()
         try:
             random.bit_generator.state = copy.deepcopy(state["random"])
         except (TypeError, ValueError, KeyError) as error:
             raise InvalidInputError(f"state['random'] is not a generator's state: {error}") from error
+        self.adopt(episode, random)
+        self._view.begin(self)
+
+    def adopt(self, episode: Episode, random: np.random.Generator) -> None:
+        """Go on with an episode, and a generator for those that follow."""
         self.np_random = random
         self._episode = episode
         self._parameters = self._parameters_in(episode.current_ned)
-        self._view.begin(self)
+
+    @property
+    def episode(self) -> Episode:
+        """The one in progress.
+
+        Raises:
+            ResetNeeded: before the first reset.
+        """
+        return self._running("the episode")
+
+    @property
+    def actuated_axes(self) -> NDArray[np.intp]:
+        """Indices of the axes that an action drives, among surge, sway, heave, roll, pitch, yaw."""
+        return self._axes
+
+    def integration_report(
+        self, status: int, completed: int, residual_squared: float, spin_squared: float, speed_squared: float
+    ) -> dict[str, Any]:
+        """Return `info["integration"]`: why the integrator refused, and with which velocity over ground."""
+        return {
+            "refused": REFUSALS[status],
+            "residual": math.sqrt(residual_squared) if math.isfinite(residual_squared) else None,
+            "completed_substeps": completed,
+            "step_times_spin": self.scene.step * math.sqrt(spin_squared),
+            "step_times_speed": self.scene.step * math.sqrt(speed_squared),
+        }
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what cannot travel: compiled code and open windows."""
@@ -313,9 +332,9 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         return compiled_control_period(
             self.scene.composition,
             self.task,
-            structure_type(self._base_parameters),
+            structure_type(self.base_parameters),
             structure_type(self.new_aim({})),
-            structure_type(self.new_memory()),
+            structure_type(self.task.forget(self.new_aim({}))),
         )
 
     def _running(self, what: str) -> Episode:
@@ -323,21 +342,18 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             raise ResetNeeded(f"{what} was asked for before reset(); call reset() first")
         return self._episode
 
-    def _new_episode(
-        self, parameters: StepParameters, aim: Any, state: BodyState, current: NDArray[np.float64]
-    ) -> Episode:
-        """Return an episode at its start, observed by the same formulas that run compiled."""
-        motion, memory = self._motion(parameters, state), self.new_memory()
-        verdict = self.task.judge(aim, motion, (0.0,) * 6)
+    def _new_episode(self, aim: Any, drawn: Drawn) -> Episode:
+        """Return an episode at its start, by the same formulas that run compiled."""
+        begun = make_beginning(self.scene.composition, self.task)(self.base_parameters, aim, drawn)
         return Episode(
-            parameters=pack(parameters),
+            parameters=pack(self.base_parameters._replace(water=begun.water)),
             aim=pack(aim),
-            state=pack(state),
-            memory=pack(memory),
+            state=pack(begun.state),
+            memory=pack(begun.memory),
             action=np.zeros(6),
-            observation=pack(self.task.observe(aim, memory, motion)).astype(np.float32),
-            measures=pack(verdict.measures),
-            current_ned=np.array(current),
+            observation=pack(begun.observation).astype(np.float32),
+            measures=pack(begun.measures),
+            current_ned=np.array(drawn.current_ned),
         )
 
     def _command(self, action: Action) -> NDArray[np.float64]:
@@ -357,37 +373,16 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         measures = dict(zip(self.task.measure_names, numbers, strict=True))
         return measures | {"is_success": self.succeeds(measures)}
 
-    def _integration(self, status: int, completed: int, residual_squared: float) -> dict[str, Any]:
-        """Say why the integrator refused."""
-        velocity = self.velocity_body
-        return {
-            "refused": REFUSALS[status],
-            "residual": float(np.sqrt(residual_squared)) if np.isfinite(residual_squared) else None,
-            "completed_substeps": completed,
-            "step_times_spin": self.scene.step * float(np.linalg.norm(velocity[3:])),
-            "step_times_speed": self.scene.step * float(np.linalg.norm(velocity[:3])),
-        }
-
     def _parameters_in(self, current: NDArray[np.float64]) -> StepParameters:
         """Return the step's parameters in the given current."""
-        if not self._base_parameters.water:
-            return self._base_parameters
-        x, y, z = (float(component) for component in current)
-        return self._base_parameters._replace(water=UniformCurrent((x, y, z)))
+        x, y, z = current.tolist()
+        return self.base_parameters._replace(water=self.scene.composition.water.flow((x, y, z)))
 
-    def _draw_current(self) -> NDArray[np.float64]:
-        """Draw the episode's current: the fixed one, or a horizontal one up to the speed."""
-        if self.current_speed == 0.0:
-            return self.current_ned.copy()
-        speed = self.current_speed * self.np_random.uniform()
-        direction = self.np_random.uniform(-np.pi, np.pi)
-        return np.array([speed * np.cos(direction), speed * np.sin(direction), 0.0])
-
-    def _checked(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
+    def checked_options(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
         """Return reset's options as arrays."""
         chosen = checked_options(options)
         current = chosen.get("current")
-        if current is not None and current.any() and not self._base_parameters.water:
+        if current is not None and current.any() and not self.base_parameters.water:
             raise InvalidInputError(
                 f"options['current'] = {current.tolist()}, but the environment was made without a current; make "
                 "it with current=<largest speed>"

@@ -14,5 +14,6 @@ def register_environments() -> None:
         gym.register(
             id=name,
             entry_point="dq_marine.envs.station_keeping:StationKeepingEnv",
+            vector_entry_point="dq_marine.envs.station_keeping:StationKeepingVectorEnv",
             max_episode_steps=300,
         )

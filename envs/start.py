@@ -3,24 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.checks import finite_array, finite_number, unit_quaternion
 from dq_marine.errors import InvalidInputError
+from dq_marine.kernel.beginning import Drawn
+from dq_marine.kernel.spatial import Spatial, from_fossen, to_fossen
+from dq_marine.kernel.task import Start
 
 START_OPTIONS = ("position", "quaternion", "velocity", "current", "goal_position", "goal_quaternion")
 """Keys of `reset`'s options, in NED and SI units; what is not given is drawn."""
 
 
-class Start(NamedTuple):
-    """Position in NED (3,) [m], attitude body to NED (4,), velocity over ground (6,) [m/s, rad/s]."""
+AT_ORIGIN = Drawn(
+    Start((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))), (0.0, 0.0, 0.0)
+)
+"""At the world's origin, at rest in still water."""
 
-    position_ned: NDArray[np.float64]
-    quaternion_body_to_ned: NDArray[np.float64]
-    velocity_body: NDArray[np.float64]
+
+def as_chosen(drawn: Drawn, chosen: dict[str, NDArray[np.float64]]) -> Drawn:
+    """Return what was drawn, but for what was chosen."""
+    drawn_start = {
+        "position": drawn.start.position_ned,
+        "quaternion": drawn.start.attitude,
+        "velocity": to_fossen(drawn.start.velocity),
+        "current": drawn.current_ned,
+    }
+    values: dict[str, Any] = {
+        name: tuple(chosen[name].tolist()) if name in chosen else value for name, value in drawn_start.items()
+    }
+    start = Start(values["position"], values["quaternion"], from_fossen(values["velocity"]))
+    return Drawn(start, values["current"])
 
 
 def checked_options(options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:

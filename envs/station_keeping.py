@@ -9,33 +9,19 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.checks import finite_array, finite_number, unit_quaternion
 from dq_marine.envs.marine_env import MarineEnv
-from dq_marine.envs.start import Start
+from dq_marine.envs.station_keeping_task import INTEGRAL_BOUND, SPEED_BOUND, TASK, Aim, Weights
+from dq_marine.envs.vector_env import DQMarineVectorEnv
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.body import Motion
-from dq_marine.kernel.quaternion import (
-    Quaternion,
-    quaternion_conjugate,
-    quaternion_multiply,
-    rotate,
-    rotate_inverse,
-)
-from dq_marine.kernel.spatial import Spatial, from_fossen
-from dq_marine.kernel.task import Task, Verdict
-from dq_marine.kernel.vector3 import Vector3, add_scaled, dot, subtract
+from dq_marine.kernel.quaternion import Quaternion
+from dq_marine.kernel.vector3 import Vector3
 from dq_marine.vehicles import Vehicle
-
-SPEED_BOUND = 10.0
-"""Velocities are observed up to this [m/s, rad/s]."""
-
-INTEGRAL_BOUND = 20.0
-"""The integral of the position error is held within this along each NED axis [m s]."""
 
 LARGEST_WORKSPACE = 1e4
 """Largest radius of the workspace [m]."""
@@ -84,128 +70,14 @@ class StationKeepingReward:
                 raise InvalidInputError(f"reward.{field.name} = {value:g}; give a number {limit}")
 
 
-class Weights(NamedTuple):
-    """`StationKeepingReward`, as the kernel takes it."""
-
-    position: float
-    position_width: float
-    precision: float
-    precision_width: float
-    attitude: float
-    attitude_width: float
-    effort: float
-
-
-class Aim(NamedTuple):
-    """Parameters of the task in one episode.
-
-    Attributes:
-        position_ned: of the goal [m].
-        attitude: of the goal, body to NED.
-        workspace_radius: distance from the goal [m] beyond which the episode ends.
-        period: control period [s].
-        wrench_limits: wrench at full action.
-        axes: number of actuated axes.
-        weights: of the reward.
-    """
-
-    position_ned: Vector3
-    attitude: Quaternion
-    workspace_radius: float
-    period: float
-    wrench_limits: tuple[float, float, float, float, float, float]
-    axes: float
-    weights: Weights
-
-
-class Memory(NamedTuple):
-    """Integral of the position error in NED [m s]: what lets a policy without memory oppose a current."""
-
-    error_integral: Vector3
-
-
-def act(aim: Aim, action: tuple[float, ...]) -> Spatial:
-    """Return the body wrench of a normalised action."""
-    limits = aim.wrench_limits
-    return from_fossen(
-        (
-            limits[0] * action[0],
-            limits[1] * action[1],
-            limits[2] * action[2],
-            limits[3] * action[3],
-            limits[4] * action[4],
-            limits[5] * action[5],
-        )
-    )
-
-
-def clamp(value: float, bound: float) -> float:
-    """Return value, held within -bound and bound."""
-    return max(-bound, min(bound, value))
-
-
-def clamp_vector(a: Vector3, bound: float) -> Vector3:
-    """Return a with each component held within -bound and bound."""
-    return (clamp(a[0], bound), clamp(a[1], bound), clamp(a[2], bound))
-
-
-def remember(aim: Aim, memory: Memory, motion: Motion) -> Memory:
-    """Return the integral of the position error, one control period on."""
-    error = subtract(aim.position_ned, motion.position_ned)
-    return Memory(clamp_vector(add_scaled(memory.error_integral, aim.period, error), INTEGRAL_BOUND))
-
-
-def observe(aim: Aim, memory: Memory, motion: Motion) -> Any:
-    """Return what the agent sees, all in the body frame.
-
-    Goal position [m] (3); the goal's x and y axes (6), which fix the attitude continuously and alike for q and
-    -q; velocity over ground [m/s, rad/s] (6, Fossen's order); integral of the position error [m s] (3).
-    """
-    error = rotate_inverse(motion.attitude, subtract(aim.position_ned, motion.position_ned))
-    to_goal = quaternion_multiply(quaternion_conjugate(motion.attitude), aim.attitude)
-    return (
-        clamp_vector(error, aim.workspace_radius),
-        clamp_vector(rotate(to_goal, (1.0, 0.0, 0.0)), 1.0),
-        clamp_vector(rotate(to_goal, (0.0, 1.0, 0.0)), 1.0),
-        clamp_vector(motion.velocity.linear, SPEED_BOUND),
-        clamp_vector(motion.velocity.angular, SPEED_BOUND),
-        rotate_inverse(motion.attitude, memory.error_integral),
-    )
-
-
-def judge(aim: Aim, motion: Motion, action: tuple[float, ...]) -> Verdict:
-    """Return the reward of `StationKeepingReward`, the end beyond the workspace, distance and attitude error."""
-    error = subtract(aim.position_ned, motion.position_ned)
-    distance = math.sqrt(dot(error, error))
-    to_goal = quaternion_multiply(quaternion_conjugate(motion.attitude), aim.attitude)
-    axis = (to_goal[1], to_goal[2], to_goal[3])
-    angle = 2.0 * math.atan2(math.sqrt(dot(axis, axis)), abs(to_goal[0]))
-    squares = 0.0
-    for component in action:
-        squares += component * component
-    weights = aim.weights
-    nearness = distance / weights.position_width
-    reward = (
-        weights.position * math.exp(-nearness * nearness)
-        + weights.precision * math.exp(-distance / weights.precision_width)
-        + weights.attitude * math.exp(-angle / weights.attitude_width)
-        - weights.effort * squares / aim.axes
-    )
-    terminated = 1.0 if distance > aim.workspace_radius else 0.0
-    return Verdict(reward, terminated, (distance, angle))
-
-
-TASK = Task(act, remember, observe, judge, measure_names=("position_error", "attitude_error"))
-
-
 class StationKeepingEnv(MarineEnv):
     """Reach a goal pose and hold it in an unseen current.
 
     Action: Box(-1, 1, (n,)), the thrust and torque of the n actuated axes, in the order surge, sway, heave, roll,
     pitch, yaw, over the vehicle's limits. Beyond the box it saturates.
 
-    Observation: see `observe`, 18 numbers in SI units. `info` has `position_error` [m], `attitude_error` [rad]
-    and `is_success`; after a refused step also `integration`.
+    Observation: see `station_keeping_task.observe`, 18 numbers in SI units. `info` has `position_error` [m],
+    `attitude_error` [rad] and `is_success`; after a refused step also `integration`.
 
     An episode ends (terminated) beyond `workspace_radius` or at a refused step; `gym.make` truncates it after 300
     control periods, 30 s.
@@ -298,6 +170,7 @@ class StationKeepingEnv(MarineEnv):
         return Aim(
             (x, y, z),
             (q0, q1, q2, q3),
+            self.start_radius,
             self.workspace_radius,
             self.control_period,
             tuple(limits.tolist()),
@@ -305,45 +178,14 @@ class StationKeepingEnv(MarineEnv):
             Weights(**{field.name: float(getattr(self.reward, field.name)) for field in fields(self.reward)}),
         )
 
-    def new_memory(self) -> Memory:
-        """Return an empty memory."""
-        return Memory((0.0, 0.0, 0.0))
-
     def goal_pose(self, aim: Aim) -> tuple[Vector3, Quaternion]:
         """Return the goal's position and attitude, for drawing."""
         return aim.position_ned, aim.attitude
 
-    def draw_start(self, aim: Aim) -> Start:
-        """Draw a start within the start radius: any heading, moderate tilt, slow; one in ten at the goal."""
-        random = self.np_random
-        direction = random.normal(size=3)
-        distance = self.start_radius * random.uniform() ** (1.0 / 3.0)
-        heading, pitch, roll = random.uniform(-1.0, 1.0, size=3) * (math.pi, 0.3, 0.3)
-        velocity = random.uniform(-0.2, 0.2, size=6)
-        at_goal = random.uniform() < 0.1
-        if at_goal:
-            return Start(np.array(aim.position_ned), np.array(aim.attitude), np.zeros(6))
-        offset = distance * direction / np.linalg.norm(direction)
-        return Start(
-            np.array(aim.position_ned) + offset, _quaternion_from_euler(roll, pitch, heading), velocity
-        )
-
-    def succeeds(self, measures: dict[str, float]) -> bool:
+    def succeeds(self, measures: dict[str, Any]) -> Any:
         """Whether the vehicle is on station."""
-        return measures["position_error"] < SUCCESS_POSITION and measures["attitude_error"] < SUCCESS_ATTITUDE
-
-
-def _quaternion_from_euler(roll: float, pitch: float, heading: float) -> NDArray[np.float64]:
-    """Return the attitude of Fossen's Euler angles (zyx) [rad], body to NED, shape (4,)."""
-
-    def about(axis: int, angle: float) -> Quaternion:
-        q = [math.cos(0.5 * angle), 0.0, 0.0, 0.0]
-        q[axis] = math.sin(0.5 * angle)
-        return (q[0], q[1], q[2], q[3])
-
-    return np.array(
-        quaternion_multiply(about(3, heading), quaternion_multiply(about(2, pitch), about(1, roll)))
-    )
+        near = measures["position_error"] < SUCCESS_POSITION
+        return near & (measures["attitude_error"] < SUCCESS_ATTITUDE)
 
 
 def _reward(reward: StationKeepingReward | Mapping[str, float] | None) -> StationKeepingReward:
@@ -361,3 +203,9 @@ def _reward(reward: StationKeepingReward | Mapping[str, float] | None) -> Statio
     if unknown:
         raise InvalidInputError(f"reward has unknown keys {unknown}; it takes {known}")
     return StationKeepingReward(**reward)
+
+
+class StationKeepingVectorEnv(DQMarineVectorEnv):
+    """Many `StationKeepingEnv` at once; see `DQMarineVectorEnv`."""
+
+    single_class = StationKeepingEnv

@@ -23,6 +23,7 @@ from numba.extending import overload, register_jitable
 import dq_marine.engines
 import dq_marine.kernel
 from dq_marine.announce import announce
+from dq_marine.engines.lane_selection import PROVIDED
 
 CONSTANT_TYPES = (bool, int, float, complex, str, tuple, np.ndarray)
 """What compiled code takes as it stood when it was compiled."""
@@ -85,7 +86,7 @@ def all_used_functions(function: Callable[..., Any]) -> list[FunctionType]:
 @functools.cache
 def make_compilable(function: FunctionType) -> None:
     """Let compiled code call a plain function, which stays plain Python."""
-    if function not in _COMPILED_APART:
+    if function not in _COMPILED_APART and function not in PROVIDED:
         register_jitable(error_model="numpy", forceinline=True)(function)
 
 

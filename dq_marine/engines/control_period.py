@@ -12,7 +12,7 @@ from numba import types
 from dq_marine.engines.compilation import compile_function
 from dq_marine.engines.one_body import AT_REST
 from dq_marine.engines.packing import make_load, store, structure_type
-from dq_marine.kernel.step import ACCEPTED, Composition
+from dq_marine.kernel.step import Composition
 from dq_marine.kernel.task import Task, make_control_period
 
 ACTION_NOT_FINITE = -1
@@ -30,8 +30,8 @@ def compiled_control_period(
 
     The compiled function takes (parameters, aim, state, memory, action, observation, measures, time, steps),
     all arrays float64 but the observation, float32. It saturates the action at -1 and 1, in place, or returns the
-    status ACTION_NOT_FINITE for a NaN or an infinity. If the status is ACCEPTED it has changed state, memory,
-    observation and measures; else none of them. It returns (status, completed, rescued, residual_squared,
+    status ACTION_NOT_FINITE for a NaN or an infinity, and nothing is changed. It changes state, memory, observation and
+    measures as `kernel.task.PeriodOutcome` says. It returns (status, completed, rescued, residual_squared,
     reward, terminated).
     """
     control_period = make_control_period(composition, task)
@@ -66,8 +66,6 @@ def compiled_control_period(
             steps,
         )
         step, verdict = outcome.step, outcome.verdict
-        if step.status != ACCEPTED:
-            return step.status, step.completed, step.rescued, step.residual_squared, 0.0, 1.0
         store(state, step.state)
         store(memory, outcome.memory)
         store(observation, outcome.observation)

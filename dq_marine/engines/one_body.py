@@ -16,8 +16,8 @@ from dq_marine.engines.packing import make_load, pack, store, structure_type, un
 from dq_marine.errors import InvalidInputError, StepNotSolvableError
 from dq_marine.kernel.body import BodyState, kinetic_energy, spatial_momentum
 from dq_marine.kernel.dual_quaternion import pose_from_parts, pose_position
-from dq_marine.kernel.inertia import momentum_from_twist, twist_from_momentum
-from dq_marine.kernel.spatial import Spatial, from_fossen, spatial_subtract, to_fossen
+from dq_marine.kernel.inertia import twist_from_momentum
+from dq_marine.kernel.spatial import Spatial, from_fossen, to_fossen
 from dq_marine.kernel.step import (
     ACCEPTED,
     NOT_CONVERGED,
@@ -27,6 +27,7 @@ from dq_marine.kernel.step import (
     StepParameters,
     make_advance,
     make_motion,
+    make_placement,
 )
 
 REFUSALS = {
@@ -225,10 +226,11 @@ def place_body(
     velocity_body: NDArray[np.float64],
 ) -> BodyState:
     """Return the state of a body with the given position, attitude and velocity over ground."""
-    pose = pose_from_parts(tuple(quaternion_body_to_ned.tolist()), tuple(position_ned.tolist()))
-    water = composition.water.twist(parameters.water, pose)
-    relative = spatial_subtract(from_fossen(tuple(velocity_body.tolist())), water)
-    return BodyState(pose, momentum_from_twist(parameters.inertia, relative))
+    place = make_placement(composition)
+    position, attitude, velocity = (
+        tuple(array.tolist()) for array in (position_ned, quaternion_body_to_ned, velocity_body)
+    )
+    return place(parameters, position, attitude, from_fossen(velocity))
 
 
 @functools.cache

@@ -33,14 +33,20 @@ def pack(structure: Any) -> NDArray[np.float64]:
 
 def unpack(like: Any, numbers: NDArray[np.floating[Any]]) -> Any:
     """Return nested tuples shaped as `like`, with `numbers` as their components: the inverse of `pack`."""
+    return rebuild(like, iter(numbers.tolist()))
 
-    def build(part: Any, source: Iterator[float]) -> Any:
-        if not isinstance(part, tuple):
-            return next(source)
-        values = [build(inner, source) for inner in part]
-        return type(part)(*values) if hasattr(part, "_fields") else tuple(values)
 
-    return build(like, iter(numbers.tolist()))
+def unpack_columns(like: Any, rows: NDArray[np.float64]) -> Any:
+    """Return nested tuples shaped as `like`, with the columns of `rows` as their components."""
+    return rebuild(like, iter(rows.T))
+
+
+def rebuild(like: Any, components: Iterator[Any]) -> Any:
+    """Return nested tuples shaped as `like`, of the given components, depth first."""
+    if not isinstance(like, tuple):
+        return next(components)
+    parts = [rebuild(part, components) for part in like]
+    return type(like)(*parts) if hasattr(like, "_fields") else tuple(parts)
 
 
 def structure_type(structure: Any) -> types.Type:

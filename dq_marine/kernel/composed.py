@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from dq_marine.kernel.body import BodyState
-from dq_marine.kernel.drift_report import drift_accepted
 from dq_marine.kernel.forces import join_pose_forces
+from dq_marine.kernel.selection import some
 from dq_marine.kernel.spatial import Spatial, spatial_add_scaled
 from dq_marine.kernel.step import (
     Advance,
@@ -20,7 +20,9 @@ from dq_marine.kernel.step import (
     StepParameters,
     arrival,
     make_flight,
-    refusal,
+    progress_by_step,
+    progress_with,
+    set_out,
 )
 
 _SUZUKI = 1.0 / (4.0 - 4.0 ** (1.0 / 3.0))
@@ -86,24 +88,21 @@ def make_composed(composition: Composition) -> Advance:
         node = time
         force = add_forces(parameters.forces[0], pose, node, wrench)
         momentum = spatial_add_scaled(state.momentum, 0.5 * stages[0], force)
-        iterations = 0
-        rescued = 0
-        worst = 0.0
-        for completed in range(steps):
+        progress = set_out(state)
+        for step in range(steps):
             for stage in range(len(stages)):
-                flown = fly(parameters, stages[stage], pose, momentum)
-                iterations += flown.report.iterations
-                rescued += flown.rescued
-                worst = max(worst, flown.report.relative_residual_squared)
-                if not drift_accepted(flown.report):
-                    return refusal(state, completed, iterations, rescued, flown.report)
+                flown = fly(parameters, stages[stage], pose, momentum, progress.under_way)
+                progress = progress_with(progress, flown)
+                if not some(progress.under_way):
+                    return arrival(state, pose, momentum, progress)
                 pose = flown.pose
                 last = stage == len(stages) - 1
-                following = 0.0 if last and completed == steps - 1 else stages[0 if last else stage + 1]
+                following = 0.0 if last and step == steps - 1 else stages[0 if last else stage + 1]
                 node += stages[stage]
                 force = add_forces(parameters.forces[0], pose, node, wrench)
                 duration = 0.5 * (stages[stage] + following)
                 momentum = spatial_add_scaled(flown.momentum, duration, force)
-        return arrival(state, pose, momentum, steps, iterations, rescued, worst)
+            progress = progress_by_step(progress)
+        return arrival(state, pose, momentum, progress)
 
     return composed

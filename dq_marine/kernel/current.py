@@ -22,8 +22,15 @@ class UniformCurrent(NamedTuple):
 
 
 class Water(NamedTuple):
-    """What moving water does: carry(parameters, h, pose) -> pose, and its twist(parameters, pose) in the body frame."""
+    """What moving water does.
 
+    Attributes:
+        flow: (velocity in NED) -> parameters.
+        carry: (parameters, h, pose) -> pose.
+        twist: (parameters, pose) -> its velocity in the body frame.
+    """
+
+    flow: Callable[[Vector3], Any]
     carry: Callable[[Any, float, DualQuaternion], DualQuaternion]
     twist: Callable[[Any, DualQuaternion], Spatial]
 
@@ -38,6 +45,16 @@ def current_twist(current: UniformCurrent, pose: DualQuaternion) -> Spatial:
     return Spatial((0.0, 0.0, 0.0), rotate_inverse(pose.real, current.velocity))
 
 
+def no_flow(velocity: Vector3) -> tuple[()]:
+    """Return the parameters of still water: none."""
+    return ()
+
+
+def uniform_flow(velocity: Vector3) -> UniformCurrent:
+    """Return the parameters of water that moves with a velocity in NED [m/s]."""
+    return UniformCurrent(velocity)
+
+
 def carry_nothing(parameters: Any, h: float, pose: DualQuaternion) -> DualQuaternion:
     """Return the pose."""
     return pose
@@ -48,5 +65,5 @@ def no_twist(parameters: Any, pose: DualQuaternion) -> Spatial:
     return Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
-STILL_WATER = Water(carry_nothing, no_twist)
-MOVING_WATER = Water(carry_with_current, current_twist)
+STILL_WATER = Water(no_flow, carry_nothing, no_twist)
+MOVING_WATER = Water(uniform_flow, carry_with_current, current_twist)

@@ -14,12 +14,12 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.kernel.drift_report import (
-    ACCEPTED_RESIDUAL,
     CONTINUED,
-    CONVERGED_RESIDUAL,
     DIRECT,
     SPLIT,
     DriftReport,
+    accepted_squared,
+    converged_squared,
     drift_accepted,
 )
 from dq_marine.kernel.dual_quaternion import (
@@ -31,12 +31,14 @@ from dq_marine.kernel.dual_quaternion import (
 from dq_marine.kernel.inertia import Inertia, twist_from_momentum
 from dq_marine.kernel.matrix3 import Matrix3, has_negative_real_eigenvalue, invert, transform
 from dq_marine.kernel.quaternion import Quaternion, rotate, rotate_inverse
+from dq_marine.kernel.selection import by_precision, negation, select, some, spread
 from dq_marine.kernel.spatial import Spatial, spatial_scale
 from dq_marine.kernel.vector3 import Vector3, cross, dot, scale, subtract
 
 MAX_ITERATIONS = 12
 SHRINKING = 0.01  # of the squared correction from one iteration to the next: a tenth of the one before
 NEGLIGIBLE_CORRECTION = 1e-20  # of the squared correction, in quarter angles
+NEGLIGIBLE_CORRECTION_SINGLE = 1e-10  # the same in single precision
 MAX_CONTINUATION_SOLVES = 64
 SMALLEST_CONTINUATION_STEP = 1.0 / 256.0
 MAX_PIECES = 64
@@ -67,34 +69,38 @@ class DriftScheme(NamedTuple):
 def make_newton(scheme: DriftScheme) -> Solve:
     """Return (inertia, guess, a, b) -> (equation, report): Newton's method.
 
-    It stops when the residual is at round-off, when it has stopped falling below the accepted residual, or after
-    `MAX_ITERATIONS`. There may be several solutions whose Jacobians look alike; that the corrections shrink from the
+    A body is done when its residual is at round-off, when it has stopped falling below the accepted residual, or after
+    `MAX_ITERATIONS`; it then waits, unchanged, for those beside it.
+    There may be several solutions whose Jacobians look alike; that the corrections shrink from the
     start (Deuflhard's natural monotonicity) tells that it did not wander off to another one than the guess's.
     """
     equation_at, jacobian_at = scheme.equation, scheme.jacobian
 
     def newton(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
         equation = equation_at(inertia, guess, a, b)
-        regular = False
-        shrinking = True
-        correction = math.inf
+        active = spread(True, a[0])
+        regular = spread(False, a[0])
+        shrinking = spread(True, a[0])
+        correction = spread(math.inf, a[0])
         iterations = 0
         for _ in range(MAX_ITERATIONS):
             jacobian = jacobian_at(inertia, equation)
-            regular = not has_negative_real_eigenvalue(jacobian)
+            regular = select(active, negation(has_negative_real_eigenvalue(jacobian)), regular)
             step = transform(invert(jacobian), equation.residual)
             size = dot(step, step)
-            shrinking = shrinking and (size <= SHRINKING * correction or size <= NEGLIGIBLE_CORRECTION)
+            negligible = by_precision(size, NEGLIGIBLE_CORRECTION, NEGLIGIBLE_CORRECTION_SINGLE)
+            shrunk = (size <= SHRINKING * correction) | (size <= negligible)
+            shrinking = shrinking & (shrunk | negation(active))
             correction = size
             before = equation.relative_residual_squared
-            equation = equation_at(inertia, subtract(equation[0], step), a, b)
+            equation = select(active, equation_at(inertia, subtract(equation[0], step), a, b), equation)
             iterations += 1
             after = equation.relative_residual_squared
-            if after <= CONVERGED_RESIDUAL**2:
+            stagnates = (before <= accepted_squared(before)) & (after >= 0.25 * before)
+            active = active & negation((after <= converged_squared(after)) | stagnates)
+            if not some(active):
                 break
-            if before <= ACCEPTED_RESIDUAL**2 and after >= 0.25 * before:
-                break
-        on_rest_branch = regular and shrinking
+        on_rest_branch = regular & shrinking
         return equation, DriftReport(equation.relative_residual_squared, on_rest_branch, iterations, DIRECT)
 
     return newton

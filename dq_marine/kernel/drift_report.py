@@ -4,11 +4,19 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from dq_marine.kernel.selection import by_precision
+
 CONVERGED_RESIDUAL = 1e-14
 """Relative residual at which the solver is content: round-off."""
 
 ACCEPTED_RESIDUAL = 1e-10
 """Relative residual up to which a solution may be used."""
+
+CONVERGED_RESIDUAL_SINGLE = 5e-6
+"""`CONVERGED_RESIDUAL` where numbers have single precision."""
+
+ACCEPTED_RESIDUAL_SINGLE = 1e-4
+"""`ACCEPTED_RESIDUAL` where numbers have single precision."""
 
 DIRECT, CONTINUED, SPLIT = range(3)
 """How a step was solved: by plain Newton, or by what had to come to its rescue."""
@@ -32,7 +40,17 @@ class DriftReport(NamedTuple):
     method: int
 
 
+def converged_squared(like: float) -> float:
+    """Return the square of the relative residual at which the solver is content."""
+    return by_precision(like, CONVERGED_RESIDUAL**2, CONVERGED_RESIDUAL_SINGLE**2)
+
+
+def accepted_squared(like: float) -> float:
+    """Return the square of the relative residual up to which a solution may be used."""
+    return by_precision(like, ACCEPTED_RESIDUAL**2, ACCEPTED_RESIDUAL_SINGLE**2)
+
+
 def drift_accepted(report: DriftReport) -> bool:
     """Whether the equation is met, on the branch connected to rest; False for NaN."""
-    met = report.relative_residual_squared <= ACCEPTED_RESIDUAL * ACCEPTED_RESIDUAL
-    return met and report.on_rest_branch
+    residual = report.relative_residual_squared
+    return (residual <= accepted_squared(residual)) & report.on_rest_branch

@@ -20,8 +20,19 @@ from dq_marine.kernel.dual_quaternion import (
     pose_renormalise,
 )
 from dq_marine.kernel.screw import pose_exp, pose_log
+from dq_marine.kernel.selection import select, select_call, some
 from dq_marine.kernel.spatial import Spatial, spatial_add, spatial_scale
-from dq_marine.kernel.step import ACCEPTED, Advance, Composition, StepOutcome, StepParameters, arrival
+from dq_marine.kernel.step import (
+    ACCEPTED,
+    Advance,
+    Composition,
+    Progress,
+    StepOutcome,
+    StepParameters,
+    arrival,
+    progress_by_step,
+    set_out,
+)
 from dq_marine.kernel.strang import StrangTiming, make_strang
 
 WEIGHT_WHOLE = 1.0 / 12.0
@@ -53,6 +64,23 @@ def weighted_momentum(whole: Spatial, halves: Spatial, thirds: Spatial) -> Spati
     return spatial_add(coarse, spatial_scale(WEIGHT_THIRDS, thirds))
 
 
+def joined(progress: Progress, outcome: StepOutcome) -> Progress:
+    """Return the progress after a substep; a body that has been refused before keeps its reason."""
+    taken = outcome.status == ACCEPTED
+    return Progress(
+        progress.under_way & taken,
+        select(progress.under_way, outcome.status, progress.status),
+        progress.completed,
+        progress.iterations + outcome.iterations,
+        progress.rescued + select(progress.under_way, outcome.rescued, 0),
+        select(
+            progress.under_way,
+            max(progress.residual_squared, outcome.residual_squared),
+            progress.residual_squared,
+        ),
+    )
+
+
 def make_extrapolated(composition: Composition) -> Advance:
     """Return the advance of the extrapolated method."""
     strang = make_strang(composition)
@@ -64,43 +92,39 @@ def make_extrapolated(composition: Composition) -> Advance:
         wrench: Spatial,
         time: float,
         count: int,
-    ) -> StepOutcome:
+        progress: Progress,
+    ) -> tuple[BodyState, Progress]:
         """Take a number of single steps."""
-        timed = StepParameters(parameters.inertia, parameters.forces, parameters.water, timing)
-        now, status = state, ACCEPTED
-        iterations, rescued, worst = 0, 0, 0.0
+        timed = StepParameters(
+            parameters.inertia, parameters.damping, parameters.forces, parameters.water, timing
+        )
+        now = state
         for done in range(count):
-            if status == ACCEPTED:
-                outcome = strang(timed, now, wrench, time + done * timing.h, 1)
-                now, status = outcome.state, outcome.status
-                iterations += outcome.iterations
-                rescued += outcome.rescued
-                worst = max(worst, outcome.residual_squared)
-        return StepOutcome(now, status, 0, iterations, rescued, worst)
+            outcome = strang(timed, now, wrench, time + done * timing.h, 1)
+            progress = joined(progress, outcome)
+            now = outcome.state
+        return now, progress
 
     def extrapolated(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
     ) -> StepOutcome:
         timing = parameters.timing
         now = state
-        iterations = 0
-        rescued = 0
-        worst = 0.0
-        for completed in range(steps):
-            node = time + completed * timing.whole.h
-            whole = pieces(parameters, timing.whole, now, wrench, node, 1)
-            halves = pieces(parameters, timing.halves, now, wrench, node, 2)
-            thirds = pieces(parameters, timing.thirds, now, wrench, node, 3)
-            for result in (whole, halves, thirds):
-                iterations += result.iterations
-                rescued += result.rescued
-                worst = max(worst, result.residual_squared)
-                if result.status != ACCEPTED:
-                    return StepOutcome(state, result.status, completed, iterations, rescued, worst)
+        progress = set_out(state)
+        for step in range(steps):
+            node = time + step * timing.whole.h
+            whole, progress = pieces(parameters, timing.whole, now, wrench, node, 1, progress)
+            halves, progress = pieces(parameters, timing.halves, now, wrench, node, 2, progress)
+            thirds, progress = pieces(parameters, timing.thirds, now, wrench, node, 3, progress)
+            progress = progress_by_step(progress)
+            if not some(progress.under_way):
+                break
             now = BodyState(
-                weighted_pose(whole.state.pose, halves.state.pose, thirds.state.pose),
-                weighted_momentum(whole.state.momentum, halves.state.momentum, thirds.state.momentum),
+                select_call(
+                    progress.under_way, weighted_pose, (whole.pose, halves.pose, thirds.pose), whole.pose
+                ),
+                weighted_momentum(whole.momentum, halves.momentum, thirds.momentum),
             )
-        return arrival(state, now.pose, now.momentum, steps, iterations, rescued, worst)
+        return arrival(state, now.pose, now.momentum, progress)
 
     return extrapolated

@@ -24,7 +24,7 @@ PoseForce: TypeAlias = Callable[[Any, DualQuaternion, float], Spatial]
 VelocityForce: TypeAlias = Callable[[Any, DualQuaternion, Spatial, float], Spatial]
 AddPoseForces: TypeAlias = Callable[[Any, DualQuaternion, float, Spatial], Spatial]
 AddVelocityForces: TypeAlias = Callable[[Any, DualQuaternion, Spatial, float, Spatial], Spatial]
-ForcedKick: TypeAlias = Callable[[Any, Inertia, Any, DualQuaternion, Spatial, float, Spatial], Spatial]
+ForcedKick: TypeAlias = Callable[[Any, Any, Inertia, Any, DualQuaternion, Spatial, float, Spatial], Spatial]
 
 
 def no_pose_force(parameters: Any, pose: DualQuaternion, time: float, wrench: Spatial) -> Spatial:
@@ -69,7 +69,7 @@ def join_velocity_forces(forces: tuple[VelocityForce, ...]) -> AddVelocityForces
 def make_forced_kick(
     kick: Kick, pose_forces: tuple[PoseForce, ...], velocity_forces: tuple[VelocityForce, ...]
 ) -> ForcedKick:
-    """Return (forces' parameters, inertia, kick's parameters, pose, momentum, time, wrench) -> momentum.
+    """Return (forces' parameters, damping, inertia, kick's parameters, pose, momentum, time, wrench) -> momentum.
 
     The forces' parameters are the pair (of the pose forces, of the velocity forces). Velocity forces are explicit:
     taken at the start for a first kick, then at the mean of start and its end, which makes the kick of second order.
@@ -78,6 +78,7 @@ def make_forced_kick(
 
     def posed_kick(
         forces: Any,
+        damping: Any,
         inertia: Inertia,
         parameters: Any,
         pose: DualQuaternion,
@@ -85,7 +86,7 @@ def make_forced_kick(
         time: float,
         wrench: Spatial,
     ) -> Spatial:
-        return kick(parameters, inertia, momentum, add_pose_forces(forces[0], pose, time, wrench))
+        return kick(parameters, damping, inertia, momentum, add_pose_forces(forces[0], pose, time, wrench))
 
     if not velocity_forces:
         return posed_kick
@@ -93,6 +94,7 @@ def make_forced_kick(
 
     def moving_kick(
         forces: Any,
+        damping: Any,
         inertia: Inertia,
         parameters: Any,
         pose: DualQuaternion,
@@ -102,8 +104,12 @@ def make_forced_kick(
     ) -> Spatial:
         posed = add_pose_forces(forces[0], pose, time, wrench)
         twist = twist_from_momentum(inertia, momentum)
-        first = kick(parameters, inertia, momentum, add_velocity_forces(forces[1], pose, twist, time, posed))
+        first = kick(
+            parameters, damping, inertia, momentum, add_velocity_forces(forces[1], pose, twist, time, posed)
+        )
         middle = twist_from_momentum(inertia, spatial_scale(0.5, spatial_add(momentum, first)))
-        return kick(parameters, inertia, momentum, add_velocity_forces(forces[1], pose, middle, time, posed))
+        return kick(
+            parameters, damping, inertia, momentum, add_velocity_forces(forces[1], pose, middle, time, posed)
+        )
 
     return moving_kick

@@ -19,7 +19,8 @@ velocity,
 so the kick that closes a step is implicit and the one that opens the next explicit: the whole step stays symmetric. It
 is A-stable only, and rings where damping is stiff.
 
-Every kick has the signature (kick, inertia, momentum, wrench) -> momentum.
+Every kick has the signature (kick, damping, inertia, momentum, wrench) -> momentum: what depends on its duration, what
+does not, M, mu and F.
 """
 
 from __future__ import annotations
@@ -27,8 +28,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
-from dq_marine.kernel.damping import DIAGONAL, FULL, DampingAlgebra, DiagonalDamping, FullDamping
+from dq_marine.kernel.damping import DIAGONAL, FULL, DampingAlgebra
 from dq_marine.kernel.inertia import Inertia, momentum_from_twist, twist_from_momentum
+from dq_marine.kernel.selection import select, some, spread
 from dq_marine.kernel.spatial import (
     Matrix6,
     Spatial,
@@ -45,7 +47,7 @@ from dq_marine.kernel.spatial import (
 MAX_NODE_ITERATIONS = 30
 NODE_TOLERANCE = 1e-28  # of the squared velocity: a change at round-off
 
-Kick: TypeAlias = Callable[[Any, Inertia, Spatial, Spatial], Spatial]
+Kick: TypeAlias = Callable[[Any, Any, Inertia, Spatial, Spatial], Spatial]
 
 
 class UndampedKick(NamedTuple):
@@ -65,7 +67,6 @@ class QuadraticKick(NamedTuple):
     """A kick of `duration` [s] with damping that grows with the velocity."""
 
     duration: float
-    damping: DiagonalDamping | FullDamping
 
 
 class NodeKick(NamedTuple):
@@ -73,15 +74,18 @@ class NodeKick(NamedTuple):
 
     implicit_duration: float
     explicit_duration: float
-    damping: DiagonalDamping | FullDamping
 
 
-def undamped_kick(kick: UndampedKick, inertia: Inertia, momentum: Spatial, wrench: Spatial) -> Spatial:
+def undamped_kick(
+    kick: UndampedKick, damping: Any, inertia: Inertia, momentum: Spatial, wrench: Spatial
+) -> Spatial:
     """Return mu + h F."""
     return spatial_add_scaled(momentum, kick.duration, wrench)
 
 
-def linear_kick(kick: LinearKick, inertia: Inertia, momentum: Spatial, wrench: Spatial) -> Spatial:
+def linear_kick(
+    kick: LinearKick, damping: Any, inertia: Inertia, momentum: Spatial, wrench: Spatial
+) -> Spatial:
     """Return P mu + Q F: (K2)-(K3) with a constant D."""
     return spatial_add(matrix6_transform(kick.propagator, momentum), matrix6_transform(kick.forcing, wrench))
 
@@ -91,14 +95,16 @@ def make_quadratic_kick(algebra: DampingAlgebra) -> Kick:
     damping_at, damping_apply = algebra.at, algebra.apply
     damping_add_scaled, damping_sandwich = algebra.add_scaled, algebra.sandwich
 
-    def quadratic_kick(kick: QuadraticKick, inertia: Inertia, momentum: Spatial, wrench: Spatial) -> Spatial:
+    def quadratic_kick(
+        kick: QuadraticKick, damping: Any, inertia: Inertia, momentum: Spatial, wrench: Spatial
+    ) -> Spatial:
         h = kick.duration
         twist = twist_from_momentum(inertia, momentum)
         middle = matrix6_solve(  # (K1)
-            damping_add_scaled(inertia.matrix, 0.5 * h, damping_at(kick.damping, twist)),
+            damping_add_scaled(inertia.matrix, 0.5 * h, damping_at(damping, twist)),
             spatial_add_scaled(momentum, 0.5 * h, wrench),
         )
-        d = damping_at(kick.damping, middle)
+        d = damping_at(damping, middle)
         excess = spatial_subtract(wrench, damping_apply(d, twist))  # (K2)
         slowed = damping_apply(d, twist_from_momentum(inertia, excess))
         change = matrix6_solve(  # (K3)
@@ -119,19 +125,23 @@ def make_node_kick(algebra: DampingAlgebra) -> Kick:
     damping_at, damping_slope = algebra.at, algebra.slope
     damping_apply, damping_add_scaled = algebra.apply, algebra.add_scaled
 
-    def node_kick(kick: NodeKick, inertia: Inertia, momentum: Spatial, wrench: Spatial) -> Spatial:
+    def node_kick(
+        kick: NodeKick, damping: Any, inertia: Inertia, momentum: Spatial, wrench: Spatial
+    ) -> Spatial:
         h = kick.implicit_duration
         target = spatial_add_scaled(momentum, h, wrench)
         twist = twist_from_momentum(inertia, momentum)
+        active = spread(True, momentum.linear[0])
         for _ in range(MAX_NODE_ITERATIONS):
-            drag = damping_apply(damping_at(kick.damping, twist), twist)
+            drag = damping_apply(damping_at(damping, twist), twist)
             held = spatial_add_scaled(momentum_from_twist(inertia, twist), h, drag)
-            slope = damping_add_scaled(inertia.matrix, h, damping_slope(kick.damping, twist))
+            slope = damping_add_scaled(inertia.matrix, h, damping_slope(damping, twist))
             change = matrix6_solve(slope, spatial_subtract(target, held))
-            twist = spatial_add(twist, change)
-            if spatial_dot(change, change) <= NODE_TOLERANCE * spatial_dot(twist, twist):
+            twist = select(active, spatial_add(twist, change), twist)
+            active = active & (spatial_dot(change, change) > NODE_TOLERANCE * spatial_dot(twist, twist))
+            if not some(active):
                 break
-        drag = damping_apply(damping_at(kick.damping, twist), twist)
+        drag = damping_apply(damping_at(damping, twist), twist)
         excess = spatial_subtract(wrench, drag)
         return spatial_add_scaled(momentum_from_twist(inertia, twist), kick.explicit_duration, excess)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
+from dq_marine.kernel.selection import every, negation
 from dq_marine.kernel.vector3 import Vector3
 
 Matrix3: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
@@ -136,20 +137,19 @@ def has_negative_real_eigenvalue(a: Matrix3) -> bool:
     """Whether a real eigenvalue of a is zero or negative; True for NaN.
 
     Those are the roots -mu, mu >= 0, of the characteristic polynomial: f(mu) = mu^3 + c2 mu^2 + c1 mu + c0 with
-    the invariants as coefficients. f(0) = c0 must be positive, and so must f where it is smallest on mu > 0, beyond
-    round-off: two equal eigenvalues make it zero there.
+    the invariants as coefficients, all positive as a rule, and then there is none. Else f(0) = c0 must be positive,
+    and so must f where it is smallest on mu > 0, beyond round-off: two equal eigenvalues make it zero there.
     """
     c2, c1, c0 = trace(a), sum_of_principal_minors(a), determinant(a)
-    if not c0 > 0.0:
-        return True
+    all_positive = (c2 > 0.0) & (c1 > 0.0) & (c0 > 0.0)
+    if every(all_positive):
+        return negation(all_positive)
     discriminant = c2 * c2 - 3.0 * c1
-    if discriminant <= 0.0:
-        return False  # f rises everywhere
-    lowest = (math.sqrt(discriminant) - c2) / 3.0
-    if lowest <= 0.0:
-        return False  # f rises on mu > 0
+    lowest = (math.sqrt(max(discriminant, 0.0)) - c2) / 3.0
+    rises = (discriminant <= 0.0) | (lowest <= 0.0)  # f has no minimum on mu > 0
     size = ((lowest + abs(c2)) * lowest + abs(c1)) * lowest + c0
-    return not ((lowest + c2) * lowest + c1) * lowest + c0 > DOUBLE_ROOT * size
+    positive_there = ((lowest + c2) * lowest + c1) * lowest + c0 > DOUBLE_ROOT * size
+    return negation((c0 > 0.0) & (rises | positive_there))
 
 
 def invert(a: Matrix3) -> Matrix3:

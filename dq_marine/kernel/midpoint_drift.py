@@ -26,6 +26,7 @@ from dq_marine.kernel.drift import DriftScheme, make_drift, make_robust_drift
 from dq_marine.kernel.dual_quaternion import DualQuaternion
 from dq_marine.kernel.inertia import Inertia
 from dq_marine.kernel.matrix3 import Matrix3, matrix_from_columns, transform
+from dq_marine.kernel.selection import smallest_normal
 from dq_marine.kernel.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
 
 
@@ -75,8 +76,7 @@ def drift_equation(inertia: Inertia, t: Vector3, a: Vector3, b: Vector3) -> Drif
     )
     w = cross(y, zb)  # (D4)
     residual = subtract(add(add(conjugate_unscaled(t, za), w), cross(t, w)), a)  # (D5)
-    # The smallest normal number keeps 0/0 away from a body at rest.
-    size_squared = dot(a, a) + dot(za, za) + dot(w, w) + 2.3e-308
+    size_squared = dot(a, a) + dot(za, za) + dot(w, w) + smallest_normal(dot(a, a))
     return DriftEquation(t, gain, zb, y, za, w, residual, dot(residual, residual) / size_squared)
 
 

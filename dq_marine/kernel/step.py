@@ -16,11 +16,14 @@ from dq_marine.kernel.body import BodyState, Motion
 from dq_marine.kernel.current import Water
 from dq_marine.kernel.drift import Drift
 from dq_marine.kernel.drift_report import DriftReport, drift_accepted
-from dq_marine.kernel.dual_quaternion import DualQuaternion, pose_position
+from dq_marine.kernel.dual_quaternion import DualQuaternion, pose_from_parts, pose_position
 from dq_marine.kernel.forces import PoseForce, VelocityForce
-from dq_marine.kernel.inertia import Inertia, twist_from_momentum
+from dq_marine.kernel.inertia import Inertia, momentum_from_twist, twist_from_momentum
 from dq_marine.kernel.kick import Kick
-from dq_marine.kernel.spatial import Spatial, spatial_add
+from dq_marine.kernel.quaternion import Quaternion
+from dq_marine.kernel.selection import negation, select, select_call, some, spread
+from dq_marine.kernel.spatial import Spatial, spatial_add, spatial_subtract
+from dq_marine.kernel.vector3 import Vector3
 
 ACCEPTED = 0
 NOT_CONVERGED = 1
@@ -36,7 +39,7 @@ class Composition:
         method: (composition) -> advance; the order of drifts and kicks.
         pose_forces: wrenches that depend on pose and time.
         velocity_forces: wrenches that depend on velocity too, apart from damping.
-        kick: momentum change at frozen pose, (parameters, inertia, momentum, wrench) -> momentum.
+        kick: momentum change at frozen pose, (parameters, damping, inertia, momentum, wrench) -> momentum.
         drift: force-free motion, (inertia, h, pose, momentum) -> (pose, momentum, report).
         rescue: the same for a step that `drift` does not solve.
         water: what moving water does.
@@ -56,6 +59,7 @@ class StepParameters(NamedTuple):
 
     Attributes:
         inertia: M and its inverses.
+        damping: what the composition's kick needs to know whatever its duration.
         forces: the parameters of the composition's pose forces and of its velocity forces, as a pair, each nested in
             pairs (first, (second, (..., ()))).
         water: parameters of `Composition.water`.
@@ -63,6 +67,7 @@ class StepParameters(NamedTuple):
     """
 
     inertia: Inertia
+    damping: Any
     forces: Any
     water: Any
     timing: Any
@@ -108,52 +113,107 @@ def make_advance(composition: Composition) -> Advance:
 
 
 class Flown(NamedTuple):
-    """A drift's outcome: pose, with the water's way added, momentum, report, and 1 if it had to be rescued."""
+    """A drift's outcome: pose, with the water's way added, momentum, report, and whether it had to be rescued."""
 
     pose: DualQuaternion
     momentum: Spatial
     report: DriftReport
-    rescued: int
+    rescued: bool
 
 
 def make_flight(
     composition: Composition,
-) -> Callable[[StepParameters, float, DualQuaternion, Spatial], Flown]:
-    """Return (parameters, h, pose, momentum) -> the drift over h in the moving water, rescued where need be."""
+) -> Callable[[StepParameters, float, DualQuaternion, Spatial, bool], Flown]:
+    """Return (parameters, h, pose, momentum, wanted) -> the drift over h in the moving water, rescued where need be.
+
+    What is not `wanted` is not rescued: a body that has been refused before.
+    """
     drift, rescue, carry = composition.drift, composition.rescue, composition.water.carry
 
-    def fly(parameters: StepParameters, h: float, pose: DualQuaternion, momentum: Spatial) -> Flown:
-        moved, transported, report = drift(parameters.inertia, h, pose, momentum)
-        rescued = 0
-        if not drift_accepted(report):
-            moved, transported, report = rescue(parameters.inertia, h, pose, momentum)
-            rescued = 1
-        return Flown(carry(parameters.water, h, moved), transported, report, rescued)
+    def fly(
+        parameters: StepParameters, h: float, pose: DualQuaternion, momentum: Spatial, wanted: bool
+    ) -> Flown:
+        outcome = drift(parameters.inertia, h, pose, momentum)
+        lost = wanted & negation(drift_accepted(outcome[2]))
+        if some(lost):
+            outcome = select_call(lost, rescue, (parameters.inertia, h, pose, momentum), outcome)
+        moved, transported, report = outcome
+        return Flown(carry(parameters.water, h, moved), transported, report, lost)
 
     return fly
 
 
-def refusal(
-    state: BodyState, completed: int, iterations: int, rescued: int, report: DriftReport
-) -> StepOutcome:
-    """Return the outcome of a step that was not solved."""
-    status = NOT_CONVERGED if report.on_rest_branch else WRONG_BRANCH
-    return StepOutcome(state, status, completed, iterations, rescued, report.relative_residual_squared)
+class Progress(NamedTuple):
+    """How the drifts of a call have gone so far; `under_way` as long as none was refused. See `StepOutcome`."""
+
+    under_way: bool
+    status: int
+    completed: int
+    iterations: int
+    rescued: int
+    residual_squared: float
 
 
-def arrival(
-    start: BodyState,
-    pose: DualQuaternion,
-    momentum: Spatial,
-    steps: int,
-    iterations: int,
-    rescued: int,
-    worst: float,
-) -> StepOutcome:
-    """Return the outcome of steps that were all solved: where they led, unless that is not finite."""
-    if not is_finite(pose, momentum):
-        return StepOutcome(start, NOT_FINITE, steps, iterations, rescued, worst)
-    return StepOutcome(BodyState(pose, momentum), ACCEPTED, steps, iterations, rescued, worst)
+def set_out(state: BodyState) -> Progress:
+    """Return the progress before the first drift."""
+    like = state.momentum.linear[0]
+    counter = spread(0, like)
+    return Progress(spread(True, like), spread(ACCEPTED, like), counter, 0, counter, spread(0.0, like))
+
+
+def progress_with(progress: Progress, flown: Flown) -> Progress:
+    """Return the progress after one more drift."""
+    report = flown.report
+    solved = drift_accepted(report)
+    refused = progress.under_way & negation(solved)
+    reason = select(report.on_rest_branch, NOT_CONVERGED, WRONG_BRANCH)
+    worst = max(progress.residual_squared, report.relative_residual_squared)
+    return Progress(
+        progress.under_way & solved,
+        select(refused, reason, progress.status),
+        progress.completed,
+        progress.iterations + report.iterations,
+        progress.rescued + select(flown.rescued, 1, 0),
+        select(progress.under_way, worst, progress.residual_squared),
+    )
+
+
+def progress_by_step(progress: Progress) -> Progress:
+    """Return the progress at the end of a step."""
+    return Progress(
+        progress.under_way,
+        progress.status,
+        progress.completed + select(progress.under_way, 1, 0),
+        progress.iterations,
+        progress.rescued,
+        progress.residual_squared,
+    )
+
+
+def arrival(start: BodyState, pose: DualQuaternion, momentum: Spatial, progress: Progress) -> StepOutcome:
+    """Return the outcome of a call: where its steps led, unless one was refused or that is not finite."""
+    finite = is_finite(pose, momentum)
+    status = select(progress.under_way & negation(finite), NOT_FINITE, progress.status)
+    state = select(progress.under_way & finite, BodyState(pose, momentum), start)
+    return StepOutcome(
+        state, status, progress.completed, progress.iterations, progress.rescued, progress.residual_squared
+    )
+
+
+def make_placement(
+    composition: Composition,
+) -> Callable[[StepParameters, Vector3, Quaternion, Spatial], BodyState]:
+    """Return (parameters, position, attitude, velocity over ground) -> the state of a body placed so."""
+    water_twist = composition.water.twist
+
+    def place(
+        parameters: StepParameters, position_ned: Vector3, attitude: Quaternion, velocity: Spatial
+    ) -> BodyState:
+        pose = pose_from_parts(attitude, position_ned)
+        relative = spatial_subtract(velocity, water_twist(parameters.water, pose))
+        return BodyState(pose, momentum_from_twist(parameters.inertia, relative))
+
+    return place
 
 
 def make_motion(composition: Composition) -> Callable[[StepParameters, BodyState], Motion]:

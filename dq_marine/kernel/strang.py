@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from dq_marine.kernel.body import BodyState
-from dq_marine.kernel.drift_report import drift_accepted
 from dq_marine.kernel.forces import make_forced_kick
+from dq_marine.kernel.selection import some
 from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import (
     Advance,
@@ -15,7 +15,9 @@ from dq_marine.kernel.step import (
     StepParameters,
     arrival,
     make_flight,
-    refusal,
+    progress_by_step,
+    progress_with,
+    set_out,
 )
 
 
@@ -42,23 +44,20 @@ def make_strang(composition: Composition) -> Advance:
     def strang(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
     ) -> StepOutcome:
-        timing, inertia, forces = parameters.timing, parameters.inertia, parameters.forces
+        timing, inertia = parameters.timing, parameters.inertia
+        forces, damping = parameters.forces, parameters.damping
         pose = state.pose
-        momentum = kick(forces, inertia, timing.opening, pose, state.momentum, time, wrench)
-        iterations = 0
-        rescued = 0
-        worst = 0.0
-        for completed in range(steps):
-            flown = fly(parameters, timing.h, pose, momentum)
-            iterations += flown.report.iterations
-            rescued += flown.rescued
-            worst = max(worst, flown.report.relative_residual_squared)
-            if not drift_accepted(flown.report):
-                return refusal(state, completed, iterations, rescued, flown.report)
+        momentum = kick(forces, damping, inertia, timing.opening, pose, state.momentum, time, wrench)
+        progress = set_out(state)
+        for step in range(steps):
+            flown = fly(parameters, timing.h, pose, momentum, progress.under_way)
+            progress = progress_by_step(progress_with(progress, flown))
+            if not some(progress.under_way):
+                break
             pose = flown.pose
-            node = time + (completed + 1) * timing.h
-            following = timing.closing if completed == steps - 1 else timing.between
-            momentum = kick(forces, inertia, following, pose, flown.momentum, node, wrench)
-        return arrival(state, pose, momentum, steps, iterations, rescued, worst)
+            node = time + (step + 1) * timing.h
+            following = timing.closing if step == steps - 1 else timing.between
+            momentum = kick(forces, damping, inertia, following, pose, flown.momentum, node, wrench)
+        return arrival(state, pose, momentum, progress)
 
     return strang

@@ -12,8 +12,18 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from dq_marine.kernel.body import BodyState, Motion
+from dq_marine.kernel.quaternion import Quaternion
+from dq_marine.kernel.selection import select
 from dq_marine.kernel.spatial import Spatial
-from dq_marine.kernel.step import Composition, StepOutcome, StepParameters, make_advance, make_motion
+from dq_marine.kernel.step import (
+    ACCEPTED,
+    Composition,
+    StepOutcome,
+    StepParameters,
+    make_advance,
+    make_motion,
+)
+from dq_marine.kernel.vector3 import Vector3
 
 
 class Verdict(NamedTuple):
@@ -30,27 +40,46 @@ class Verdict(NamedTuple):
     measures: tuple[float, ...]
 
 
+class Start(NamedTuple):
+    """Where an episode begins: position [m], attitude body to NED, velocity over ground in the body frame."""
+
+    position_ned: Vector3
+    attitude: Quaternion
+    velocity: Spatial
+
+
 @dataclass(frozen=True)
 class Task:
     """The functions of a task.
 
     Attributes:
+        draws: how many uniform random numbers in [0, 1) `start` takes.
+        start: (parameters, uniforms) -> Start. Called for one body at a time, it may branch.
+        forget: (parameters) -> memory at an episode's start.
         act: (parameters, action) -> wrench on the body, from the normalised action of six axes.
         remember: (parameters, memory, motion) -> memory at the end of a control period.
         observe: (parameters, memory, motion) -> nested tuples of numbers, flattened into the observation.
         judge: (parameters, motion, action) -> Verdict.
         measure_names: names of the verdict's measures.
+        episode_fields: of the parameters, those that may differ between episodes.
     """
 
+    draws: int
+    start: Callable[[Any, tuple[float, ...]], Start]
+    forget: Callable[[Any], Any]
     act: Callable[[Any, Any], Spatial]
     remember: Callable[[Any, Any, Motion], Any]
     observe: Callable[[Any, Any, Motion], Any]
     judge: Callable[[Any, Motion, Any], Verdict]
     measure_names: tuple[str, ...]
+    episode_fields: tuple[str, ...]
 
 
 class PeriodOutcome(NamedTuple):
-    """The end of one control period; memory, observation and verdict mean nothing if the step was refused."""
+    """The end of one control period.
+
+    After a refused step all is as before the period, but for the verdict: no reward, and the end.
+    """
 
     step: StepOutcome
     memory: Any
@@ -76,10 +105,17 @@ def make_control_period(
         steps: int,
     ) -> PeriodOutcome:
         step = advance(parameters, state, act(aim, action), time, steps)
+        taken = step.status == ACCEPTED
         motion = motion_of(parameters, step.state)
-        memory_after = remember(aim, memory, motion)
+        memory_after = select(taken, remember(aim, memory, motion), memory)
+        verdict = judge(aim, motion, action)
+        reward = select(taken, verdict.reward, 0.0)
+        terminated = select(taken, verdict.terminated, 1.0)
         return PeriodOutcome(
-            step, memory_after, observe(aim, memory_after, motion), judge(aim, motion, action)
+            step,
+            memory_after,
+            observe(aim, memory_after, motion),
+            Verdict(reward, terminated, verdict.measures),
         )
 
     return control_period

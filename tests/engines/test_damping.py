@@ -80,7 +80,9 @@ def test_a_kick_without_a_wrench_only_takes_energy(seed, magnitude):
     inertia, momentum = inertia_term(m), spatial(rng.normal(size=6))
     energy = kinetic_energy(inertia, momentum)
     for _ in range(5):
-        momentum = damping.kick(damping.timing(0.05).between, inertia, momentum, spatial(np.zeros(6)))
+        momentum = damping.kick(
+            damping.timing(0.05).between, damping.matrices, inertia, momentum, spatial(np.zeros(6))
+        )
         assert kinetic_energy(inertia, momentum) <= energy * (1.0 + 1e-12)
         energy = kinetic_energy(inertia, momentum)
 

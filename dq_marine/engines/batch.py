@@ -1,0 +1,218 @@
+"""Many bodies at once, in SIMD lanes and threads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dq_marine.checks import finite_rows, positive_integer, unit_quaternion_rows
+from dq_marine.engines.lane_packing import empty_blocks, pack_blocks, pack_shared, unpack_blocks
+from dq_marine.engines.lanes import compiled_lane_advance, differing_fields, lane_layout, lanes_of
+from dq_marine.engines.one_body import AT_REST, REFUSALS
+from dq_marine.engines.packing import pack, unpack_columns
+from dq_marine.engines.workers import Workers, checked_threads
+from dq_marine.errors import InvalidInputError
+from dq_marine.kernel.body import BodyState
+from dq_marine.kernel.dual_quaternion import pose_position
+from dq_marine.kernel.inertia import twist_from_momentum
+from dq_marine.kernel.spatial import from_fossen, to_fossen
+from dq_marine.kernel.step import ACCEPTED, StepParameters, make_motion, make_placement
+
+if TYPE_CHECKING:
+    from dq_marine.scene import Scene
+
+STATUS, RESCUED, RESIDUAL_SQUARED = range(3)
+"""Fields of an outcome."""
+
+
+class Batch:
+    """Bodies in scenes made of the same terms, advanced together.
+
+    Made by `Scene.batch` (bodies that differ in nothing) or `dq_marine.scene.batch_of` (a scene for each: vehicles and
+    currents may differ in every number). Time starts at 0 and is one for all. Positions are in NED, velocities over
+    ground in the body frame and in Fossen's order [u, v, w, p, q, r].
+
+    With strict arithmetic in double precision every body has the bits that `OneBody` has.
+
+    Attributes:
+        size: number of bodies.
+        step_size: h [s].
+        time: since the last reset [s].
+        steps_rescued: of all bodies' steps, those that plain Newton did not solve (see `kernel.drift`).
+        steps_refused: calls that a body did not take part in, because a step in it was refused.
+    """
+
+    def __init__(
+        self,
+        scenes: Sequence[Scene],
+        size: int,
+        *,
+        threads: int | None = None,
+        precision: str = "float64",
+        arithmetic: str = "strict",
+    ) -> None:
+        """Lay out the bodies; see `Scene.batch` for the arguments. `scenes` has one for all, or one for each."""
+        self.size = positive_integer("the number of bodies", size)
+        lanes = lanes_of(precision, arithmetic)
+        composition = scenes[0].composition
+        if any(scene.composition != composition or scene.step != scenes[0].step for scene in scenes):
+            raise InvalidInputError(
+                "the scenes of a batch differ in what they compute, or in their step; give scenes of equal terms, "
+                "scheme, order, kick and step (a term that is zero is left out: give it a tiny value)"
+            )
+        self.step_size = scenes[0].step
+        rows = [scene.parameters_at(scene.step) for scene in scenes]
+        packed = [pack(row) for row in rows]
+        self._like = rows[0]
+        self._layout = layout = lane_layout(rows[0], differing_fields(rows), lanes)
+        self._shared = pack_shared(layout.parameters, packed[0])
+        self._own = empty_blocks(layout.parameters, self.size, lanes)
+        pack_blocks(layout.parameters, packed, self._own)
+        self._states = empty_blocks(layout.state, self.size, lanes)
+        self._outcomes = empty_blocks(layout.outcome, self.size, lanes)
+        self._advance = compiled_lane_advance(composition, layout)
+        self._motion, self._place = make_motion(composition), make_placement(composition)
+        self._workers = Workers(checked_threads(threads), len(self._states))
+        self.steps_rescued = self.steps_refused = 0
+        self.time = 0.0
+        self.reset()
+
+    @property
+    def threads(self) -> int:
+        """Number of threads in use."""
+        return self._workers.threads
+
+    @property
+    def bytes_per_body(self) -> float:
+        """Memory held for each body."""
+        arrays = (self._own, self._states, self._outcomes)
+        return float(sum(array.nbytes for array in arrays) / self.size)
+
+    def reset(
+        self,
+        position_ned: ArrayLike = (0.0, 0.0, 0.0),
+        quaternion_body_to_ned: ArrayLike = (1.0, 0.0, 0.0, 0.0),
+        velocity_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    ) -> None:
+        """Place all bodies and set the time to 0. Each argument has one row for all, or one for each.
+
+        Args:
+            position_ned: shape (3,) or (size, 3) [m].
+            quaternion_body_to_ned: shape (4,) or (size, 4), scalar first, of unit length to 1e-6; it is normalised.
+            velocity_body: over ground, shape (6,) or (size, 6) [m/s, rad/s].
+
+        Raises:
+            InvalidInputError: a shape or value is wrong; nothing is changed.
+        """
+        position = finite_rows("position_ned", position_ned, self.size, 3)
+        attitude = unit_quaternion_rows("quaternion_body_to_ned", quaternion_body_to_ned, self.size)
+        velocity = finite_rows("velocity_body", velocity_body, self.size, 6)
+        state = self._place(
+            self._parameters, tuple(position.T), tuple(attitude.T), from_fossen(tuple(velocity.T))
+        )
+        self._set_rows(np.stack([np.broadcast_to(c, self.size) for c in _components(state)], axis=1))
+        self.time = 0.0
+
+    def step(self, wrench_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), steps: int = 1) -> None:
+        """Advance all bodies by `steps` steps, each under a constant wrench.
+
+        A body whose step is refused stays where it was before the call, and shows in `refusals`; the others go on.
+
+        Args:
+            wrench_body: [X, Y, Z, K, M, N] in the body frame about its origin, shape (6,) or (size, 6) [N, N m].
+            steps: how many, at least 1.
+
+        Raises:
+            InvalidInputError: a shape or value is wrong; nothing is changed.
+        """
+        wrenches = finite_rows("wrench_body", wrench_body, self.size, 6)
+        count = positive_integer("steps", steps)
+        self._workers.run(
+            self._advance,
+            self._shared,
+            self._own,
+            self._states,
+            self._outcomes,
+            wrenches,
+            self.time,
+            count,
+        )
+        self.steps_rescued += int(self._outcome(RESCUED).sum())
+        self.steps_refused += int(np.count_nonzero(self._outcome(STATUS)))
+        self.time += count * self.step_size
+
+    @property
+    def refusals(self) -> dict[int, str]:
+        """Bodies that did not take part in the last call, by index, and why."""
+        status = self._outcome(STATUS)
+        return {int(body): REFUSALS[int(status[body])] for body in np.flatnonzero(status != ACCEPTED)}
+
+    @property
+    def position_ned(self) -> NDArray[np.float64]:
+        """Positions of the body origins [m], shape (size, 3)."""
+        return np.stack(pose_position(self._bodies.pose), axis=1)
+
+    @property
+    def quaternion_body_to_ned(self) -> NDArray[np.float64]:
+        """Attitudes, scalar first, shape (size, 4)."""
+        return np.stack(self._bodies.pose.real, axis=1)
+
+    @property
+    def relative_velocity_body(self) -> NDArray[np.float64]:
+        """Velocities through the water nu_r, shape (size, 6) [m/s, rad/s]."""
+        twist = twist_from_momentum(self._parameters.inertia, self._bodies.momentum)
+        return np.stack(to_fossen(twist), axis=1)
+
+    @property
+    def velocity_body(self) -> NDArray[np.float64]:
+        """Velocities over ground nu, shape (size, 6) [m/s, rad/s]."""
+        return np.stack(to_fossen(self._motion(self._parameters, self._bodies).velocity), axis=1)
+
+    def get_state(self) -> NDArray[np.float64]:
+        """Return time, pose and momentum of every body, shape (size, 15); `set_state` restores them bit for bit."""
+        rows = unpack_blocks(self._layout.state, self._shared, self._states, self.size)
+        return np.column_stack([np.full(self.size, self.time), rows])
+
+    def set_state(self, state: ArrayLike) -> None:
+        """Restore what `get_state` returned.
+
+        Raises:
+            InvalidInputError: shape or value is wrong; nothing is changed.
+        """
+        numbers = finite_rows("state", state, self.size, 15)
+        unit_quaternion_rows("state[:, 1:5]", numbers[:, 1:5].copy(), self.size)
+        if (numbers[:, 0] != numbers[0, 0]).any():
+            raise InvalidInputError("state[:, 0], the time, differs between bodies; a batch has one time")
+        self._set_rows(numbers[:, 1:])
+        self.time = float(numbers[0, 0])
+
+    def close(self) -> None:
+        """End the threads; they start again when there is work."""
+        self._workers.close()
+
+    @property
+    def _parameters(self) -> StepParameters:
+        """The numbers of the scenes: those that are one for all, else arrays of shape (size,)."""
+        rows = unpack_blocks(self._layout.parameters, self._shared, self._own, self.size)
+        return unpack_columns(self._like, rows)
+
+    @property
+    def _bodies(self) -> BodyState:
+        """Pose and momentum as the kernel has them, of arrays of shape (size,)."""
+        rows = unpack_blocks(self._layout.state, self._shared, self._states, self.size)
+        return unpack_columns(AT_REST, rows)
+
+    def _set_rows(self, rows: NDArray[np.float64]) -> None:
+        pack_blocks(self._layout.state, rows, self._states)
+
+    def _outcome(self, field: int) -> NDArray[Any]:
+        return self._outcomes[:, field, :].reshape(-1)[: self.size]
+
+
+def _components(state: Any) -> list[Any]:
+    if not isinstance(state, tuple):
+        return [state]
+    return [component for part in state for component in _components(part)]

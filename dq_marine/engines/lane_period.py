@@ -1,0 +1,330 @@
+"""One control period of many bodies' task, in SIMD lanes: actions in, observations, verdicts and new episodes out."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from numba import types
+from numba.cpython.unsafe.tuple import tuple_setitem
+
+from dq_marine.engines.compilation import compile_function
+from dq_marine.engines.lane_packing import Packing, make_load_block, make_store_block
+from dq_marine.engines.lane_rows import (
+    lane_numbers,
+    make_load_column,
+    make_load_rows,
+    store_columns,
+    store_rows,
+)
+from dq_marine.engines.lane_type import Lanes
+from dq_marine.engines.packing import make_load, structure_type
+from dq_marine.engines.pcg64 import next_uniform
+from dq_marine.kernel.beginning import (
+    CURRENT_DRAWS,
+    NO_ACTION,
+    Beginning,
+    CurrentDraw,
+    Drawn,
+    in_water,
+    make_beginning,
+    make_draw,
+)
+from dq_marine.kernel.selection import negation, select, select_call, some, spread
+from dq_marine.kernel.spatial import Spatial
+from dq_marine.kernel.step import ACCEPTED, Composition, StepParameters, make_motion
+from dq_marine.kernel.task import Start, Task, make_control_period
+from dq_marine.kernel.vector3 import dot
+
+
+@dataclass(frozen=True)
+class PeriodLayout:
+    """How environments lie in memory: the type of their own numbers, and a packing for each structure."""
+
+    lanes: Lanes
+    parameters: Packing
+    aim: Packing
+    state: Packing
+    memory: Packing
+    outcome: Packing
+
+    @property
+    def key(self) -> str:
+        """Text that tells layouts apart."""
+        packings = (self.parameters, self.aim, self.state, self.memory, self.outcome)
+        return "|".join([str(self.lanes), *(packing.key for packing in packings)])
+
+
+class PeriodArrays(NamedTuple):
+    """The memory of a batch of environments, padded to whole blocks.
+
+    Blocks as in `engines.lane_packing`, each with the array of what is shared:
+
+    Attributes:
+        shared: shared parameters of the step.
+        parameters: the others.
+        shared_aim: shared parameters of the task.
+        aims: the others.
+        default_aims: those that an episode begins with, unless told otherwise.
+        states: of the bodies.
+        memories: of the task.
+        outcomes: (status, completed, rescued, residual squared, spin squared, speed squared) of the last period.
+        generators: random number generators, see `engines.pcg64`, shape (bodies, 4).
+        currents: `CurrentDraw`, packed.
+        chosen: what is not drawn at a `begin`: position, quaternion, velocity (Fossen's order), current; NaN if drawn.
+        drawn_currents: of the episodes begun last, shape (bodies, 3).
+        periods: control periods since the episode began.
+        ended: whether the last period ended the episode.
+        observations: shape (bodies, observed).
+        final_observations: the same of episodes that ended in the last period.
+        rewards: of the last period.
+        terminated: whether the task ended.
+        truncated: whether the time limit was met.
+        measures: at the period's end, a row for each measure.
+        final_measures: the same of episodes that ended in the last period.
+    """
+
+    shared: Any
+    parameters: Any
+    shared_aim: Any
+    aims: Any
+    default_aims: Any
+    states: Any
+    memories: Any
+    outcomes: Any
+    generators: Any
+    currents: Any
+    chosen: Any
+    drawn_currents: Any
+    periods: Any
+    ended: Any
+    observations: Any
+    final_observations: Any
+    rewards: Any
+    terminated: Any
+    truncated: Any
+    measures: Any
+    final_measures: Any
+
+
+def renew_at_next_step(waiting: bool, ended: bool) -> tuple[bool, bool]:
+    """Return which episodes are renewed now, and which wait: one that ended is renewed by the step after."""
+    return waiting, ended
+
+
+def renew_at_same_step(waiting: bool, ended: bool) -> tuple[bool, bool]:
+    """Return which episodes are renewed now, and which wait: one that ended is renewed at once, none waits."""
+    return ended, waiting & negation(ended)
+
+
+def choose(chosen: float, drawn: float) -> float:
+    """Return what was chosen, unless it is NaN."""
+    return drawn if chosen != chosen else chosen
+
+
+def choose3(chosen: Any, first: int, drawn: Any) -> Any:
+    """Return three numbers, those that were chosen from the index `first` on, unless they are NaN."""
+    return (
+        choose(chosen[first], drawn[0]),
+        choose(chosen[first + 1], drawn[1]),
+        choose(chosen[first + 2], drawn[2]),
+    )
+
+
+def as_chosen_in(chosen: Any, drawn: Drawn) -> Drawn:
+    """Return what was drawn, but for what was chosen: a row of `PeriodArrays.chosen`."""
+    start = drawn.start
+    q = start.attitude
+    attitude = (choose(chosen[3], q[0]), *choose3(chosen, 4, (q[1], q[2], q[3])))
+    velocity = Spatial(choose3(chosen, 10, start.velocity.angular), choose3(chosen, 7, start.velocity.linear))
+    return Drawn(
+        Start(choose3(chosen, 0, start.position_ned), attitude, velocity),
+        choose3(chosen, 13, drawn.current_ned),
+    )
+
+
+CHOSEN_COLUMNS = 16
+
+
+def saturated(action: Any) -> Any:
+    """Return the action of six axes within -1 and 1."""
+    return (
+        max(-1.0, min(1.0, action[0])),
+        max(-1.0, min(1.0, action[1])),
+        max(-1.0, min(1.0, action[2])),
+        max(-1.0, min(1.0, action[3])),
+        max(-1.0, min(1.0, action[4])),
+        max(-1.0, min(1.0, action[5])),
+    )
+
+
+@functools.cache
+def make_begin_one(composition: Composition, task: Task) -> Callable[..., Any]:
+    """Return (generators, chosen, currents, body, parameters, aim) -> (Beginning, current), for one body."""
+    draw, begin = make_draw(task), make_beginning(composition, task)
+    load_currents = make_load(structure_type(CurrentDraw((0.0, 0.0, 0.0), 0.0)))
+    count = CURRENT_DRAWS + task.draws
+    zeros = (0.0,) * count
+
+    def begin_one(
+        generators: Any, chosen: Any, currents: Any, body: int, parameters: StepParameters, aim: Any
+    ) -> Any:
+        uniforms = zeros
+        for index in range(count):
+            uniforms = tuple_setitem(uniforms, index, next_uniform(generators[body]))
+        drawn = as_chosen_in(chosen[body], draw(aim, load_currents(currents), uniforms))
+        return begin(parameters, aim, drawn), drawn.current_ned
+
+    return begin_one
+
+
+@functools.cache
+def compiled_begin(composition: Composition, task: Task, layout: PeriodLayout) -> Callable[..., Any]:
+    """Compile (first, last, arrays, wanted): new episodes where `wanted` is set, with the aims that stand there.
+
+    Blocks first <= k < last; `wanted` holds a bool for every lane.
+    """
+    loads, stores = _Loads(layout), _Stores(layout)
+    load_parameters, load_aim, load_state = loads.parameters, loads.aim, loads.state
+    load_memory, load_flags = loads.memory, loads.flags
+    store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
+    begin_one, motion_of = make_begin_one(composition, task), make_motion(composition)
+    observe, judge = task.observe, task.judge
+
+    def begin_blocks(first: int, last: int, arrays: PeriodArrays, wanted: Any) -> None:
+        for block in range(first, last):
+            renewed = load_flags(wanted, block)
+            if some(renewed):
+                parameters = load_parameters(arrays.shared, arrays.parameters, block)
+                aim = load_aim(arrays.shared_aim, arrays.aims, block)
+                state = load_state(arrays.shared, arrays.states, block)
+                memory = load_memory(arrays.shared, arrays.memories, block)
+                motion = motion_of(parameters, state)
+                measures = judge(aim, motion, NO_ACTION).measures
+                observation = observe(aim, memory, motion)
+                current = spread((0.0, 0.0, 0.0), motion.position_ned[0])
+                going_on = Beginning(parameters.water, state, memory, observation, measures), current
+                bodies = lane_numbers(motion.position_ned[0], block)
+                arguments = (arrays.generators, arrays.chosen, arrays.currents, bodies, parameters, aim)
+                begun, current = select_call(renewed, begin_one, arguments, going_on)
+                store_state(arrays.states, block, begun.state)
+                store_memory(arrays.memories, block, begun.memory)
+                store_parameters(arrays.parameters, block, in_water(parameters, begun.water))
+                store_rows(arrays.observations, block, begun.observation)
+                store_rows(arrays.drawn_currents, block, current)
+                store_columns(arrays.measures, block, begun.measures)
+
+    return compile_function(begin_blocks, layout.key)
+
+
+@functools.cache
+def compiled_period(
+    composition: Composition, task: Task, layout: PeriodLayout, renewal: Callable[[bool, bool], Any]
+) -> Callable[..., Any]:
+    """Compile (first, last, arrays, actions, period, steps, most_periods): one control period of a range of blocks.
+
+    `actions` has a row of six axes for every environment, saturated here; `period` [s] is divided into `steps`; an
+    episode is truncated after `most_periods`. `renewal` is `renew_at_next_step` or `renew_at_same_step`.
+    """
+    loads, stores = _Loads(layout), _Stores(layout)
+    load_parameters, load_aim, load_state = loads.parameters, loads.aim, loads.state
+    load_memory, load_flags, load_numbers, load_actions = (
+        loads.memory,
+        loads.flags,
+        loads.numbers,
+        loads.actions,
+    )
+    store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
+    store_aim, store_outcome = stores.aim, stores.outcome
+    control_period, begin_one = make_control_period(composition, task), make_begin_one(composition, task)
+    motion_of = make_motion(composition)
+
+    def period_blocks(
+        first: int,
+        last: int,
+        arrays: PeriodArrays,
+        actions: Any,
+        period: float,
+        steps: int,
+        most_periods: float,
+    ) -> None:
+        for block in range(first, last):
+            parameters = load_parameters(arrays.shared, arrays.parameters, block)
+            aim = load_aim(arrays.shared_aim, arrays.aims, block)
+            state = load_state(arrays.shared, arrays.states, block)
+            memory = load_memory(arrays.shared, arrays.memories, block)
+            action = saturated(load_actions(actions, block))
+            elapsed = load_numbers(arrays.periods, block)
+            outcome = control_period(parameters, aim, state, memory, action, elapsed * period, steps)
+            step, verdict = outcome.step, outcome.verdict
+
+            idle = load_flags(arrays.ended, block)
+            terminated = (verdict.terminated != 0.0) & negation(idle)
+            elapsed = elapsed + 1.0
+            truncated = (elapsed >= most_periods) & negation(idle)
+            ended = terminated | truncated
+            renewed, waiting = renewal(idle, ended)
+            store_rows(arrays.rewards, block, select(idle, 0.0, verdict.reward))
+            store_rows(arrays.terminated, block, terminated)
+            store_rows(arrays.truncated, block, truncated)
+            store_rows(arrays.ended, block, waiting)
+            store_rows(arrays.periods, block, select(renewed, 0.0, elapsed))
+            velocity = motion_of(parameters, step.state).velocity
+            spin, speed = dot(velocity.angular, velocity.angular), dot(velocity.linear, velocity.linear)
+            report = (step.status, step.completed, step.rescued, step.residual_squared, spin, speed)
+            store_outcome(arrays.outcomes, block, select(idle, (ACCEPTED, 0, 0, 0.0, 0.0, 0.0), report))
+
+            begun = Beginning(
+                parameters.water, step.state, outcome.memory, outcome.observation, verdict.measures
+            )
+            if some(ended):
+                store_rows(arrays.final_observations, block, outcome.observation)
+                store_columns(arrays.final_measures, block, verdict.measures)
+            if some(renewed):
+                default_aim = load_aim(arrays.shared_aim, arrays.default_aims, block)
+                bodies = lane_numbers(verdict.reward, block)
+                current = spread((0.0, 0.0, 0.0), verdict.reward)
+                arguments = (
+                    arrays.generators,
+                    arrays.chosen,
+                    arrays.currents,
+                    bodies,
+                    parameters,
+                    default_aim,
+                )
+                begun, current = select_call(renewed, begin_one, arguments, (begun, current))
+                store_parameters(arrays.parameters, block, in_water(parameters, begun.water))
+                store_aim(arrays.aims, block, select(renewed, default_aim, aim))
+                store_rows(arrays.drawn_currents, block, current)
+            store_state(arrays.states, block, begun.state)
+            store_memory(arrays.memories, block, begun.memory)
+            store_rows(arrays.observations, block, begun.observation)
+            store_columns(arrays.measures, block, begun.measures)
+
+    return compile_function(period_blocks, layout.key, apart=(composition.rescue,))
+
+
+class _Loads:
+    """Readers of a layout, for compiled code."""
+
+    def __init__(self, layout: PeriodLayout) -> None:
+        self.parameters = make_load_block(layout.parameters)
+        self.aim = make_load_block(layout.aim)
+        self.state = make_load_block(layout.state)
+        self.memory = make_load_block(layout.memory)
+        self.flags = make_load_column(layout.lanes.of(types.boolean))
+        self.numbers = make_load_column(layout.lanes)
+        self.actions = make_load_rows(layout.lanes, 6)
+
+
+class _Stores:
+    """Writers of a layout, for compiled code."""
+
+    def __init__(self, layout: PeriodLayout) -> None:
+        self.parameters = make_store_block(layout.parameters)
+        self.aim = make_store_block(layout.aim)
+        self.state = make_store_block(layout.state)
+        self.memory = make_store_block(layout.memory)
+        self.outcome = make_store_block(layout.outcome)

@@ -1,0 +1,452 @@
+"""Many environments at once: Gymnasium's vector interface to control periods compiled for SIMD lanes and threads."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.error import ResetNeeded
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from dq_marine.checks import positive_integer
+from dq_marine.engines.lane_period import (
+    compiled_begin,
+    compiled_period,
+    renew_at_next_step,
+    renew_at_same_step,
+)
+from dq_marine.engines.lanes import lanes_of
+from dq_marine.engines.pcg64 import fill_seeded, state_of, words_of
+from dq_marine.engines.workers import Workers, checked_threads
+from dq_marine.envs.lane_memory import (
+    COMPLETED,
+    RESCUED,
+    RESIDUAL_SQUARED,
+    SPEED_SQUARED,
+    SPIN_SQUARED,
+    STATUS,
+    LaneMemory,
+)
+from dq_marine.envs.marine_env import MarineEnv
+from dq_marine.envs.vector_options import CHOSEN_SLICES, checked_mask, checked_seeds, split_options
+from dq_marine.errors import InvalidInputError
+from dq_marine.vehicles import Vehicle
+
+Observations = NDArray[np.float32]
+Flags = NDArray[np.bool_]
+StepResult = tuple[Observations, NDArray[np.float64], Flags, Flags, dict[str, Any]]
+
+RENEWALS = {
+    AutoresetMode.NEXT_STEP: renew_at_next_step,
+    AutoresetMode.SAME_STEP: renew_at_same_step,
+    AutoresetMode.DISABLED: renew_at_next_step,
+}
+
+
+REPORTED = (STATUS, COMPLETED, RESIDUAL_SQUARED, SPIN_SQUARED, SPEED_SQUARED)
+"""Fields of an outcome that a report of a refusal is made of."""
+
+
+class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
+    """n environments of one task, stepped together. `gym.make_vec` makes one.
+
+    Environment i behaves like the single environment seeded with its seed: to the last bit with strict arithmetic in
+    double precision. A task derives from it and names its single environment.
+
+    Attributes:
+        substeps_rescued: of all integrator steps so far, those that plain Newton did not solve.
+        episodes_refused: episodes that ended because the integrator refused a step.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 10}  # type: ignore[misc]
+    single_class: ClassVar[type[Any]]
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        *,
+        vehicle: Vehicle
+        | str
+        | os.PathLike[str]
+        | Sequence[Vehicle | str | os.PathLike[str]] = "bluerov2_heavy",
+        max_episode_steps: int = 300,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        threads: int | None = None,
+        precision: str = "float64",
+        arithmetic: str = "strict",
+        copy: bool = True,
+        **single_arguments: Any,
+    ) -> None:
+        """Check, lay out and compose.
+
+        Args:
+            num_envs: how many.
+            vehicle: as for the single environment; or a list of them, one for each, which may differ in every number.
+            max_episode_steps: control periods after which an episode is truncated.
+            autoreset_mode: what follows the end of an episode, see Gymnasium's `AutoresetMode`.
+            threads: None for all cores that the process may use.
+            precision: "float64", or "float32", which is faster.
+            arithmetic: "strict", with the bits of the single environment, or "fast", with other rounding errors.
+            copy: whether what `step` returns is the caller's own; if not, the next step overwrites it.
+            single_arguments: the single environment's other arguments.
+
+        Raises:
+            InvalidInputError: a value is wrong, or the vehicles differ in what is to be computed.
+            VehicleFileError: a vehicle file is wrong.
+        """
+        self.num_envs = positive_integer("num_envs", num_envs)
+        self.max_episode_steps = positive_integer("max_episode_steps", max_episode_steps)
+        self.autoreset_mode = _checked_mode(autoreset_mode)
+        self._singles = self._made_singles(vehicle, single_arguments)
+        self.single = single = self._singles[0]
+        self._memory = LaneMemory(self._singles, self.num_envs, lanes_of(precision, arithmetic))
+        self._workers = Workers(checked_threads(threads), len(self._memory.arrays.states))
+        self._compile()
+
+        self.render_mode = single.render_mode
+        self.metadata = {**single.metadata, "autoreset_mode": self.autoreset_mode}  # type: ignore[misc]
+        self.single_observation_space = single.observation_space
+        self.single_action_space = single.action_space
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
+
+        self.copy = bool(copy)
+        self.substeps_rescued = self.episodes_refused = 0
+        self._seeds = [-1] * self.num_envs
+        self._commands = np.zeros((self.num_envs, 6))
+        self._everywhere = np.ones(self.num_envs, np.bool_)
+        self._begun = False
+        self._fill_generators([None] * self.num_envs, self._everywhere)
+
+    # Gymnasium
+
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observations, dict[str, Any]]:
+        """Start an episode in every environment, or in those of the option `reset_mask`.
+
+        Args:
+            seed: a number s seeds environment i with s + i; or one for each. None goes on with the generators.
+            options: `reset_mask`, bools of shape (num_envs,); and what not to draw, as for the single environment: one
+                for all, or with a row for each.
+
+        Raises:
+            InvalidInputError: a value is wrong; nothing is changed.
+        """
+        seeds = checked_seeds(seed, self.num_envs)
+        wanted = checked_mask(options, self.num_envs)
+        for_all, for_each = split_options(options, self.num_envs, self.single.checked_options)
+        if not self._begun and not wanted.all():
+            raise InvalidInputError("options['reset_mask'] leaves out environments that were never reset")
+        self._fill_generators(seeds, wanted)
+        self._begin(wanted, for_all, for_each)
+        self._begun = True
+        return self._observations(), self._measured(wanted) | self._currents(wanted)
+
+    def step(self, actions: NDArray[Any]) -> StepResult:
+        """Hold an action in every environment for one control period.
+
+        Args:
+            actions: shape (num_envs, actuated axes), as for the single environment; they saturate beyond [-1, 1].
+
+        Returns:
+            Observations, rewards, terminations, truncations, infos, as Gymnasium's `SyncVectorEnv` has them.
+
+        Raises:
+            InvalidInputError: the shape is wrong, or there is a NaN or an infinity; nothing is changed.
+            ResetNeeded: before the first reset, or where autoreset is disabled and an episode has ended.
+        """
+        self._take(actions)
+        arrays = self._memory.arrays
+        waiting = arrays.ended[: self.num_envs].copy()
+        if self.autoreset_mode is AutoresetMode.DISABLED and waiting.any():
+            raise ResetNeeded(
+                f"the episode of environment {int(waiting.argmax())} has ended and autoreset is disabled; reset it "
+                "with options={'reset_mask': ...}"
+            )
+        self._workers.run(
+            self._period,
+            arrays,
+            self._commands,
+            self.single.control_period,
+            self.single.substeps,
+            float(self.max_episode_steps),
+        )
+        self.substeps_rescued += int(self._memory.outcome(RESCUED).sum())
+        terminated, truncated = arrays.terminated[: self.num_envs], arrays.truncated[: self.num_envs]
+        return (
+            self._observations(),
+            self._given(arrays.rewards[: self.num_envs]),
+            self._given(terminated),
+            self._given(truncated),
+            self._infos(waiting, terminated | truncated),
+        )
+
+    def close_extras(self, **kwargs: Any) -> None:
+        """End threads and windows."""
+        self._workers.close()
+        self.single.close()
+
+    # Environments one by one
+
+    def at(self, index: int) -> MarineEnv:
+        """Return one environment as a single one, at the present state of its episode.
+
+        It is a copy: what is done to it does not change the batch. The next call may give the same object.
+
+        Raises:
+            ResetNeeded: before the first reset.
+        """
+        self._need_reset("an environment")
+        single = self._singles[index if len(self._singles) > 1 else 0]
+        generator = np.random.Generator(np.random.PCG64())
+        generator.bit_generator.state = state_of(self._memory.arrays.generators[index])
+        episode = self._memory.episode(index)
+        episode.action = np.clip(self._commands[index], -1.0, 1.0)
+        single.adopt(episode, generator)
+        return single
+
+    def call(self, name: str, *args: Any, **kwargs: Any) -> tuple[Any, ...]:
+        """Call a method of every environment, or get an attribute; what the call changes is kept."""
+        return tuple(self._call(index, name, *args, **kwargs) for index in range(self.num_envs))
+
+    def get_attr(self, name: str) -> tuple[Any, ...]:
+        """Return an attribute of every environment."""
+        return self.call(name)
+
+    def set_attr(self, name: str, values: Any) -> None:
+        """Set an attribute of every environment; episodes that begin later follow it.
+
+        Args:
+            name: of the attribute.
+            values: a list or tuple of one value for each environment, else one value for all.
+
+        Raises:
+            InvalidInputError: there is not one for each, or environments that share a single one would differ.
+        """
+        each = list(values) if isinstance(values, list | tuple) else [values] * self.num_envs
+        if len(each) != self.num_envs:
+            raise InvalidInputError(f"{len(each)} values for {self.num_envs} environments; give one for each")
+        if len(self._singles) == 1 and any(value != each[0] for value in each):
+            raise InvalidInputError(
+                f"{name} would differ between environments that share all; give them vehicles of their own "
+                "(vehicle=[...]), or make separate vector environments"
+            )
+        for single, value in zip(self._singles, each, strict=False):
+            setattr(single, name, value)
+        self._memory.set_default_aims([single.new_aim({}) for single in self._singles])
+
+    @property
+    def np_random_seed(self) -> tuple[int, ...]:  # type: ignore[override]
+        """Seeds of the environments."""
+        return tuple(self._seeds)
+
+    @property  # type: ignore[misc]
+    def np_random(self) -> tuple[np.random.Generator, ...]:  # type: ignore[override]
+        """Generators at the state of the environments' own."""
+        return self.get_attr("np_random")
+
+    @property
+    def threads(self) -> int:
+        """Number of threads in use."""
+        return self._workers.threads
+
+    @property
+    def bytes_per_environment(self) -> float:
+        """Memory held for each environment."""
+        return self._memory.bytes_per_environment + self._commands.nbytes / self.num_envs
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what cannot travel: compiled code and threads."""
+        return {name: value for name, value in self.__dict__.items() if name not in _NOT_CARRIED}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Compile again, from the cache on disk."""
+        self.__dict__.update(state)
+        self._workers = Workers(state["_threads"], len(self._memory.arrays.states))
+        self._compile()
+
+    # Inside
+
+    def _compile(self) -> None:
+        self._threads = self._workers.threads
+        parts = (self.single.scene.composition, self.single.task, self._memory.layout)
+        self._period = compiled_period(*parts, RENEWALS[self.autoreset_mode])
+        self._begin_compiled = compiled_begin(*parts)
+
+    def _made_singles(self, vehicle: Any, arguments: dict[str, Any]) -> list[MarineEnv]:
+        """Return the single environments: one that stands for all, or one for each."""
+        if not isinstance(vehicle, list | tuple):
+            return [self.single_class(vehicle, **arguments)]
+        if len(vehicle) != self.num_envs:
+            raise InvalidInputError(
+                f"{len(vehicle)} vehicles for {self.num_envs} environments; give one for each"
+            )
+        singles = [self.single_class(one, **arguments) for one in vehicle]
+        first = singles[0]
+        for index, single in enumerate(singles):
+            same_terms = single.scene.composition == first.scene.composition
+            if not same_terms or single.action_space != first.action_space:
+                raise InvalidInputError(
+                    f"vehicle[{index}] has terms {list(single.scene.terms)} and axes {single.actuated_axes}, "
+                    f"vehicle[0] {list(first.scene.terms)} and {first.actuated_axes}; they must not differ"
+                )
+        return singles
+
+    def _fill_generators(self, seeds: list[int | None], wanted: Flags) -> None:
+        """Seed the wanted environments: with their seed, or where they never had one, from fresh entropy."""
+        chosen = [
+            int(index)
+            for index in np.flatnonzero(wanted)
+            if seeds[index] is not None or self._seeds[index] < 0
+        ]
+        if not chosen:
+            return
+        fresh = np.random.SeedSequence().generate_state(len(chosen), np.uint64) >> np.uint64(1)
+        for index, entropy in zip(chosen, fresh.tolist(), strict=True):
+            given = seeds[index]
+            self._seeds[index] = entropy if given is None else given
+        fill_seeded(
+            self._memory.arrays.generators, [self._seeds[index] for index in chosen], np.array(chosen)
+        )
+
+    def _begin(self, wanted: Flags, for_all: dict[str, Any], for_each: dict[str, Any]) -> None:
+        """Begin episodes in the wanted environments, drawn but for what was chosen."""
+        arrays, n = self._memory.arrays, self.num_envs
+        mask = np.zeros(self._memory.bodies, np.bool_)
+        mask[:n] = wanted
+        mask[n:] = not self._begun
+        self._memory.reset_aims(mask)
+        aims = self._chosen_aims(for_all, for_each)
+        if aims:
+            self._memory.set_aims(wanted, aims)
+        for name, columns in CHOSEN_SLICES.items():
+            if name in for_all:
+                arrays.chosen[:n, columns] = for_all[name]
+            elif name in for_each:
+                arrays.chosen[:n, columns] = for_each[name]
+        self._workers.run(self._begin_compiled, arrays, mask)
+        arrays.chosen[:] = np.nan
+        arrays.periods[mask] = 0.0
+        arrays.ended[mask] = False
+
+    def _chosen_aims(self, for_all: dict[str, Any], for_each: dict[str, Any]) -> list[Any]:
+        """Return the aims that the options ask for, one for all or one for each; none if they ask for none."""
+        names = [name for name in (*for_all, *for_each) if name not in CHOSEN_SLICES]
+        if not names:
+            return []
+        if len(self._singles) == 1 and not any(name in for_each for name in names):
+            return [self.single.new_aim(for_all)]
+        singles = self._singles if len(self._singles) > 1 else self._singles * self.num_envs
+        return [
+            single.new_aim(for_all | {name: rows[index] for name, rows in for_each.items()})
+            for index, single in enumerate(singles)
+        ]
+
+    def _take(self, actions: NDArray[Any]) -> None:
+        """Check the actions and put them into the commands of six axes."""
+        self._need_reset("step")
+        try:
+            given = np.asarray(actions)
+            total = float(given.sum())
+        except (TypeError, ValueError) as error:
+            raise InvalidInputError(f"actions = {actions!r} is not numeric") from error
+        shape = (self.num_envs, len(self.single.actuated_axes))
+        if given.shape != shape:
+            raise InvalidInputError(f"actions have shape {given.shape}; give shape {shape}")
+        if not np.isfinite(total):
+            bad = np.flatnonzero(~np.isfinite(given).all(axis=1))
+            if bad.size:
+                raise InvalidInputError(
+                    f"actions[{bad[0]}] = {given[bad[0]].tolist()} is not finite; give finite numbers"
+                )
+        self._commands[:, self.single.actuated_axes] = given
+
+    def _infos(self, waiting: Flags, ended: Flags) -> dict[str, Any]:
+        """Return a step's infos: the measures, and what newly begun and ended episodes have besides."""
+        infos = self._measured(self._everywhere)
+        refusals = self._refusals()
+        if self.autoreset_mode is not AutoresetMode.SAME_STEP:
+            for index, report in refusals.items():
+                infos = self._add_info(infos, {"integration": report}, index)
+            return infos | self._currents(waiting)
+        if ended.any():
+            final = self._measured(ended, final=True)
+            for index, report in refusals.items():
+                final = self._add_info(final, {"integration": report}, index)
+            observations = np.full(self.num_envs, None, dtype=object)
+            for index in np.flatnonzero(ended).tolist():
+                observations[index] = self._memory.arrays.final_observations[index].copy()
+            infos |= {"final_obs": observations, "_final_obs": ended.copy()}
+            infos |= {"final_info": final, "_final_info": ended.copy()}
+            infos |= self._currents(ended)
+        return infos
+
+    def _measured(self, where: Flags, *, final: bool = False) -> dict[str, Any]:
+        """Return the measures and the success of some environments, with masks, as Gymnasium merges infos."""
+        arrays = self._memory.arrays
+        rows = (arrays.final_measures if final else arrays.measures)[:, : self.num_envs]
+        names = self.single.task.measure_names
+        whole = where is self._everywhere
+        measures = {
+            name: self._given(row) if whole else np.where(where, row, 0.0)
+            for name, row in zip(names, rows, strict=True)
+        }
+        success = self.single.succeeds(measures) & where
+        infos = measures | {"is_success": success}
+        return infos | {f"_{name}": self._given(where) for name in infos}
+
+    def _currents(self, where: Flags) -> dict[str, Any]:
+        """Return the currents of newly begun episodes, none if there is none."""
+        if not where.any():
+            return {}
+        currents = self._memory.arrays.drawn_currents[: self.num_envs]
+        return {"current_ned": np.where(where[:, None], currents, 0.0), "_current_ned": where.copy()}
+
+    def _refusals(self) -> dict[int, dict[str, Any]]:
+        """Return why the integrator refused, by environment."""
+        status = self._memory.outcome(STATUS)
+        refused = np.flatnonzero(status)
+        self.episodes_refused += len(refused)
+        if not refused.size:
+            return {}
+        outcomes = np.stack([self._memory.outcome(field)[refused] for field in REPORTED], axis=1).tolist()
+        return {
+            index: self.single.integration_report(int(why), int(completed), *squares)
+            for index, (why, completed, *squares) in zip(refused.tolist(), outcomes, strict=True)
+        }
+
+    def _observations(self) -> Observations:
+        return self._given(self._memory.arrays.observations[: self.num_envs])
+
+    def _given(self, array: NDArray[Any]) -> NDArray[Any]:
+        return array.copy() if self.copy else array
+
+    def _call(self, index: int, name: str, *args: Any, **kwargs: Any) -> Any:
+        single = self.at(index)
+        value = getattr(single, name)
+        if not callable(value):
+            return value
+        result = value(*args, **kwargs)
+        self._memory.set_episode(index, single.episode)
+        self._memory.arrays.generators[index] = words_of(dict(single.np_random.bit_generator.state))
+        return result
+
+    def _need_reset(self, what: str) -> None:
+        if not self._begun:
+            raise ResetNeeded(f"{what} was asked for before reset(); call reset() first")
+
+
+def _checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
+    try:
+        return AutoresetMode(mode)
+    except ValueError as error:
+        known = [member.value for member in AutoresetMode]
+        raise InvalidInputError(f"autoreset_mode = {mode!r} is unknown; give one of {known}") from error
+
+
+_NOT_CARRIED = ("_period", "_begin_compiled", "_workers")

@@ -1,0 +1,90 @@
+"""Seeds and options of a vector environment's reset, checked, and as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.checks import finite_rows, unit_quaternion_rows
+from dq_marine.errors import InvalidInputError
+
+CHOSEN_SLICES = {
+    "position": slice(0, 3),
+    "quaternion": slice(3, 7),
+    "velocity": slice(7, 13),
+    "current": slice(13, 16),
+}
+"""Where the options of a start stand in a row of `PeriodArrays.chosen`."""
+
+RESET_MASK = "reset_mask"
+
+
+def checked_seeds(seed: int | Sequence[int | None] | None, n: int) -> list[int | None]:
+    """Return a seed for each of n environments, None for those whose generator goes on.
+
+    Raises:
+        InvalidInputError: a seed is no whole number of 0 or more, or there is not one for each.
+    """
+    if seed is None:
+        return [None] * n
+    if isinstance(seed, int | np.integer):
+        seeds: list[int | None] = [int(seed) + index for index in range(n)]
+    else:
+        seeds = [None if one is None else int(one) for one in seed]
+    if len(seeds) != n:
+        raise InvalidInputError(f"{len(seeds)} seeds for {n} environments; give one number, or one for each")
+    if any(one is not None and one < 0 for one in seeds):
+        raise InvalidInputError(f"seed = {seed!r}; give whole numbers of 0 or more")
+    return seeds
+
+
+def checked_mask(options: dict[str, Any] | None, n: int) -> NDArray[np.bool_]:
+    """Return which of n environments are reset: all, or those of the option `reset_mask`.
+
+    Raises:
+        InvalidInputError: it is not an array of n bools with at least one True.
+    """
+    if options is None or RESET_MASK not in options:
+        return np.ones(n, np.bool_)
+    mask = options[RESET_MASK]
+    if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_ or mask.shape != (n,) or not mask.any():
+        raise InvalidInputError(
+            f"options['{RESET_MASK}'] = {mask!r}; give a NumPy array of {n} bools, at least one of them True"
+        )
+    return mask
+
+
+def split_options(
+    options: dict[str, Any] | None, n: int, check: Callable[[dict[str, Any]], dict[str, NDArray[np.float64]]]
+) -> tuple[dict[str, NDArray[np.float64]], dict[str, NDArray[np.float64]]]:
+    """Return the options that are one for all environments, and those with a row for each, both checked.
+
+    Args:
+        options: of `reset`.
+        n: number of environments.
+        check: of the options that are one for all.
+
+    Raises:
+        InvalidInputError: an option is unknown or wrong.
+    """
+    given = {name: value for name, value in (options or {}).items() if name != RESET_MASK}
+    for_each = {name: value for name, value in given.items() if np.ndim(value) == 2}
+    for_all = check({name: value for name, value in given.items() if name not in for_each})
+    rows = {name: _checked_rows(name, value, n, check) for name, value in for_each.items()}
+    return for_all, rows
+
+
+def _checked_rows(
+    name: str, value: Any, n: int, check: Callable[[dict[str, Any]], Any]
+) -> NDArray[np.float64]:
+    label = f"options[{name!r}]"
+    if name.endswith("quaternion"):
+        rows = unit_quaternion_rows(label, value, n)
+    else:
+        rows = finite_rows(label, value, n, 6 if name == "velocity" else 3)
+    # The largest row stands for all in what a single environment checks: names, and whether there is a current.
+    check({name: rows[int(np.abs(rows).max(axis=1).argmax())]})
+    return rows
