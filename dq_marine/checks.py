@@ -91,7 +91,9 @@ def finite_rows(name: str, value: ArrayLike, rows: int, size: int) -> NDArray[np
     if array.shape != (rows, size):
         raise InvalidInputError(f"{name} has shape {array.shape}; give shape ({rows}, {size}) or ({size},)")
     # The sum is finite unless a component is not, or numbers near the largest add up beyond it: look closer then.
-    if not np.isfinite(array.sum()):
+    with np.errstate(over="ignore", invalid="ignore"):
+        total = array.sum()
+    if not np.isfinite(total):
         bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
         if bad.size:
             raise InvalidInputError(

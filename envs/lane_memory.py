@@ -60,19 +60,31 @@ class LaneMemory:
         )
         self.bodies = -(-n // lanes.width) * lanes.width
         self.arrays = self._arrays(first)
-        self.like_parameters, self.like_aim, self.like_memory = parameters[0], aims[0], memory
+        self._like_parameters = parameters[0]
         self.fill(self.layout.parameters, self.arrays.shared, self.arrays.parameters, parameters)
+        self._own_aims = frozenset(own_aims)
         self.set_default_aims(aims)
+        np.copyto(self.arrays.aims, self.arrays.default_aims)
 
     @property
     def bytes_per_environment(self) -> float:
         """Memory held for each environment."""
         return float(sum(array.nbytes for array in self.arrays) / self.n)
 
+    def can_hold(self, aims: Sequence[Any]) -> bool:
+        """Whether aims, one for all or one for each, differ only where environments have numbers of their own."""
+        return differing_fields(aims) <= self._own_aims
+
     def set_default_aims(self, aims: Sequence[Any]) -> None:
-        """Set what episodes begin with, one for all or one for each; what is shared must be equal."""
-        for blocks in (self.arrays.default_aims, self.arrays.aims):
-            self.fill(self.layout.aim, self.arrays.shared_aim, blocks, aims)
+        """Set what episodes begin with, one for all or one for each; see `can_hold`."""
+        self.fill(self.layout.aim, self.arrays.shared_aim, self.arrays.default_aims, aims)
+
+    def take_over(self, other: LaneMemory) -> None:
+        """Go on where environments that were laid out otherwise are."""
+        for index in range(self.n):
+            self.set_episode(index, other.episode(index))
+        for name in ("generators", "ended"):
+            getattr(self.arrays, name)[: self.n] = getattr(other.arrays, name)[: self.n]
 
     def fill(
         self, packing: Packing, shared: NDArray[np.float64], blocks: NDArray[Any], structures: Sequence[Any]
@@ -98,7 +110,7 @@ class LaneMemory:
         """Return a copy of one environment's episode; its action is left at zero."""
         arrays, layout = self.arrays, self.layout
         parameters = self._read(layout.parameters, arrays.shared, arrays.parameters, index)
-        water = rebuild(self.like_parameters, iter(parameters.tolist())).water
+        water = rebuild(self._like_parameters, iter(parameters.tolist())).water
         return Episode(
             parameters=parameters,
             aim=self._read(layout.aim, arrays.shared_aim, arrays.aims, index),

@@ -197,6 +197,11 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self._running("render")
         return self._view.render(self)
 
+    def render_still(self) -> NDArray[np.uint8]:
+        """Return a picture as `render` does, without the trail that led here."""
+        self._running("render")
+        return self._view.render_still(self)
+
     def save_html(self, path: str | os.PathLike[str]) -> None:
         """Write the episode so far as a standalone page with a timeline (play, pause, scrub).
 
@@ -269,9 +274,10 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.adopt(episode, random)
         self._view.begin(self)
 
-    def adopt(self, episode: Episode, random: np.random.Generator) -> None:
-        """Go on with an episode, and a generator for those that follow."""
+    def adopt(self, episode: Episode, random: np.random.Generator, seed: int | None = -1) -> None:
+        """Go on with an episode, and a generator, with its seed if that is known, for those that follow."""
         self.np_random = random
+        self._np_random_seed = seed
         self._episode = episode
         self._parameters = self._parameters_in(episode.current_ned)
 

@@ -20,7 +20,6 @@ from dq_marine.engines.lane_period import (
     renew_at_same_step,
 )
 from dq_marine.engines.lanes import lanes_of
-from dq_marine.engines.pcg64 import fill_seeded, state_of, words_of
 from dq_marine.engines.workers import Workers, checked_threads
 from dq_marine.envs.lane_memory import (
     COMPLETED,
@@ -31,6 +30,7 @@ from dq_marine.envs.lane_memory import (
     STATUS,
     LaneMemory,
 )
+from dq_marine.envs.lane_singles import LaneSingles
 from dq_marine.envs.marine_env import MarineEnv
 from dq_marine.envs.vector_options import CHOSEN_SLICES, checked_mask, checked_seeds, split_options
 from dq_marine.errors import InvalidInputError
@@ -58,7 +58,6 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
     double precision. A task derives from it and names its single environment.
 
     Attributes:
-        substeps_rescued: of all integrator steps so far, those that plain Newton did not solve.
         episodes_refused: episodes that ended because the integrator refused a step.
     """
 
@@ -95,15 +94,16 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             single_arguments: the single environment's other arguments.
 
         Raises:
-            InvalidInputError: a value is wrong, or the vehicles differ in what is to be computed.
+            InvalidInputError: a value is wrong, something is to be recorded, or the vehicles differ in what is
+                to be computed.
             VehicleFileError: a vehicle file is wrong.
         """
         self.num_envs = positive_integer("num_envs", num_envs)
         self.max_episode_steps = positive_integer("max_episode_steps", max_episode_steps)
         self.autoreset_mode = _checked_mode(autoreset_mode)
-        self._singles = self._made_singles(vehicle, single_arguments)
-        self.single = single = self._singles[0]
-        self._memory = LaneMemory(self._singles, self.num_envs, lanes_of(precision, arithmetic))
+        singles = self._made_singles(vehicle, single_arguments)
+        single = singles[0]
+        self._lanes = LaneSingles(singles, self.num_envs, lanes_of(precision, arithmetic))
         self._workers = Workers(checked_threads(threads), len(self._memory.arrays.states))
         self._compile()
 
@@ -115,12 +115,9 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
 
         self.copy = bool(copy)
-        self.substeps_rescued = self.episodes_refused = 0
-        self._seeds = [-1] * self.num_envs
-        self._commands = np.zeros((self.num_envs, 6))
+        self.episodes_refused = 0
         self._everywhere = np.ones(self.num_envs, np.bool_)
         self._begun = False
-        self._fill_generators([None] * self.num_envs, self._everywhere)
 
     # Gymnasium
 
@@ -142,7 +139,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         for_all, for_each = split_options(options, self.num_envs, self.single.checked_options)
         if not self._begun and not wanted.all():
             raise InvalidInputError("options['reset_mask'] leaves out environments that were never reset")
-        self._fill_generators(seeds, wanted)
+        self._lanes.seed(seeds, np.flatnonzero(wanted).tolist())
         self._begin(wanted, for_all, for_each)
         self._begun = True
         return self._observations(), self._measured(wanted) | self._currents(wanted)
@@ -160,7 +157,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             InvalidInputError: the shape is wrong, or there is a NaN or an infinity; nothing is changed.
             ResetNeeded: before the first reset, or where autoreset is disabled and an episode has ended.
         """
-        self._take(actions)
+        self._need_reset("step")
         arrays = self._memory.arrays
         waiting = arrays.ended[: self.num_envs].copy()
         if self.autoreset_mode is AutoresetMode.DISABLED and waiting.any():
@@ -168,15 +165,16 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
                 f"the episode of environment {int(waiting.argmax())} has ended and autoreset is disabled; reset it "
                 "with options={'reset_mask': ...}"
             )
+        self._take(actions)
         self._workers.run(
             self._period,
             arrays,
-            self._commands,
+            self._lanes.commands,
             self.single.control_period,
             self.single.substeps,
             float(self.max_episode_steps),
         )
-        self.substeps_rescued += int(self._memory.outcome(RESCUED).sum())
+        np.add(self._lanes.rescued, self._memory.outcome(RESCUED), out=self._lanes.rescued, casting="unsafe")
         terminated, truncated = arrays.terminated[: self.num_envs], arrays.truncated[: self.num_envs]
         return (
             self._observations(),
@@ -185,6 +183,20 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             self._given(truncated),
             self._infos(waiting, terminated | truncated),
         )
+
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """Return a picture of every environment in mode "rgb_array", about 50 ms each; None otherwise.
+
+        In mode "human" a page follows the first environment by itself; see `watch`.
+
+        Raises:
+            ResetNeeded: before the first reset.
+            MissingDependencyError: meshcat or a Chromium is not installed.
+        """
+        self._need_reset("render")
+        if self.render_mode != "rgb_array":
+            return None
+        return tuple(self.at(index).render_still() for index in range(self.num_envs))
 
     def close_extras(self, **kwargs: Any) -> None:
         """End threads and windows."""
@@ -196,23 +208,24 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
     def at(self, index: int) -> MarineEnv:
         """Return one environment as a single one, at the present state of its episode.
 
-        It is a copy: what is done to it does not change the batch. The next call may give the same object.
+        What is done to it does not change the batch. The next call may give the same object.
 
         Raises:
             ResetNeeded: before the first reset.
         """
         self._need_reset("an environment")
-        single = self._singles[index if len(self._singles) > 1 else 0]
-        generator = np.random.Generator(np.random.PCG64())
-        generator.bit_generator.state = state_of(self._memory.arrays.generators[index])
-        episode = self._memory.episode(index)
-        episode.action = np.clip(self._commands[index], -1.0, 1.0)
-        single.adopt(episode, generator)
-        return single
+        return self._lanes.at(index)
 
     def call(self, name: str, *args: Any, **kwargs: Any) -> tuple[Any, ...]:
         """Call a method of every environment, or get an attribute; what the call changes is kept."""
-        return tuple(self._call(index, name, *args, **kwargs) for index in range(self.num_envs))
+        return tuple(self.call_at(index, name, *args, **kwargs) for index in range(self.num_envs))
+
+    def call_at(self, index: int, name: str, *args: Any, **kwargs: Any) -> Any:
+        """Call a method of one environment, or get an attribute; what the call changes is kept."""
+        if not self._begun:
+            value = getattr(self.single, name)
+            return value(*args, **kwargs) if callable(value) else value
+        return self._lanes.call(index, name, *args, **kwargs)
 
     def get_attr(self, name: str) -> tuple[Any, ...]:
         """Return an attribute of every environment."""
@@ -221,34 +234,37 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
     def set_attr(self, name: str, values: Any) -> None:
         """Set an attribute of every environment; episodes that begin later follow it.
 
+        Numbers of the task that then differ between environments have to be laid out, and the step compiled, anew.
+
         Args:
             name: of the attribute.
             values: a list or tuple of one value for each environment, else one value for all.
 
         Raises:
-            InvalidInputError: there is not one for each, or environments that share a single one would differ.
+            InvalidInputError: there is not one for each.
         """
-        each = list(values) if isinstance(values, list | tuple) else [values] * self.num_envs
-        if len(each) != self.num_envs:
-            raise InvalidInputError(f"{len(each)} values for {self.num_envs} environments; give one for each")
-        if len(self._singles) == 1 and any(value != each[0] for value in each):
-            raise InvalidInputError(
-                f"{name} would differ between environments that share all; give them vehicles of their own "
-                "(vehicle=[...]), or make separate vector environments"
-            )
-        for single, value in zip(self._singles, each, strict=False):
-            setattr(single, name, value)
-        self._memory.set_default_aims([single.new_aim({}) for single in self._singles])
+        if self._lanes.set_attr(name, values):
+            self._compile()
 
     @property
-    def np_random_seed(self) -> tuple[int, ...]:  # type: ignore[override]
+    def np_random_seed(self) -> tuple[int | None, ...]:  # type: ignore[override]
         """Seeds of the environments."""
-        return tuple(self._seeds)
+        return tuple(self._lanes.seeds)
 
     @property  # type: ignore[misc]
     def np_random(self) -> tuple[np.random.Generator, ...]:  # type: ignore[override]
         """Generators at the state of the environments' own."""
         return self.get_attr("np_random")
+
+    @property
+    def single(self) -> MarineEnv:
+        """A single environment that stands for all."""
+        return self._lanes.first
+
+    @property
+    def substeps_rescued(self) -> int:
+        """Of all integrator steps so far, those that plain Newton did not solve (see `kernel.drift`)."""
+        return int(self._lanes.rescued.sum())
 
     @property
     def threads(self) -> int:
@@ -258,7 +274,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
     @property
     def bytes_per_environment(self) -> float:
         """Memory held for each environment."""
-        return self._memory.bytes_per_environment + self._commands.nbytes / self.num_envs
+        return self._memory.bytes_per_environment + self._lanes.commands.nbytes / self.num_envs
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what cannot travel: compiled code and threads."""
@@ -272,6 +288,10 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
 
     # Inside
 
+    @property
+    def _memory(self) -> LaneMemory:
+        return self._lanes.memory
+
     def _compile(self) -> None:
         self._threads = self._workers.threads
         parts = (self.single.scene.composition, self.single.task, self._memory.layout)
@@ -280,6 +300,10 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
 
     def _made_singles(self, vehicle: Any, arguments: dict[str, Any]) -> list[MarineEnv]:
         """Return the single environments: one that stands for all, or one for each."""
+        if arguments.pop("record", False):
+            raise InvalidInputError(
+                "record = True; a vector environment records nothing, make a single one for that"
+            )
         if not isinstance(vehicle, list | tuple):
             return [self.single_class(vehicle, **arguments)]
         if len(vehicle) != self.num_envs:
@@ -297,23 +321,6 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
                 )
         return singles
 
-    def _fill_generators(self, seeds: list[int | None], wanted: Flags) -> None:
-        """Seed the wanted environments: with their seed, or where they never had one, from fresh entropy."""
-        chosen = [
-            int(index)
-            for index in np.flatnonzero(wanted)
-            if seeds[index] is not None or self._seeds[index] < 0
-        ]
-        if not chosen:
-            return
-        fresh = np.random.SeedSequence().generate_state(len(chosen), np.uint64) >> np.uint64(1)
-        for index, entropy in zip(chosen, fresh.tolist(), strict=True):
-            given = seeds[index]
-            self._seeds[index] = entropy if given is None else given
-        fill_seeded(
-            self._memory.arrays.generators, [self._seeds[index] for index in chosen], np.array(chosen)
-        )
-
     def _begin(self, wanted: Flags, for_all: dict[str, Any], for_each: dict[str, Any]) -> None:
         """Begin episodes in the wanted environments, drawn but for what was chosen."""
         arrays, n = self._memory.arrays, self.num_envs
@@ -321,9 +328,8 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         mask[:n] = wanted
         mask[n:] = not self._begun
         self._memory.reset_aims(mask)
-        aims = self._chosen_aims(for_all, for_each)
-        if aims:
-            self._memory.set_aims(wanted, aims)
+        if {*for_all, *for_each} - set(CHOSEN_SLICES):
+            self._memory.set_aims(wanted, self._lanes.aims(for_all, for_each))
         for name, columns in CHOSEN_SLICES.items():
             if name in for_all:
                 arrays.chosen[:n, columns] = for_all[name]
@@ -334,25 +340,12 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         arrays.periods[mask] = 0.0
         arrays.ended[mask] = False
 
-    def _chosen_aims(self, for_all: dict[str, Any], for_each: dict[str, Any]) -> list[Any]:
-        """Return the aims that the options ask for, one for all or one for each; none if they ask for none."""
-        names = [name for name in (*for_all, *for_each) if name not in CHOSEN_SLICES]
-        if not names:
-            return []
-        if len(self._singles) == 1 and not any(name in for_each for name in names):
-            return [self.single.new_aim(for_all)]
-        singles = self._singles if len(self._singles) > 1 else self._singles * self.num_envs
-        return [
-            single.new_aim(for_all | {name: rows[index] for name, rows in for_each.items()})
-            for index, single in enumerate(singles)
-        ]
-
     def _take(self, actions: NDArray[Any]) -> None:
         """Check the actions and put them into the commands of six axes."""
-        self._need_reset("step")
         try:
             given = np.asarray(actions)
-            total = float(given.sum())
+            with np.errstate(over="ignore", invalid="ignore"):
+                total = float(given.sum())
         except (TypeError, ValueError) as error:
             raise InvalidInputError(f"actions = {actions!r} is not numeric") from error
         shape = (self.num_envs, len(self.single.actuated_axes))
@@ -364,7 +357,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
                 raise InvalidInputError(
                     f"actions[{bad[0]}] = {given[bad[0]].tolist()} is not finite; give finite numbers"
                 )
-        self._commands[:, self.single.actuated_axes] = given
+        self._lanes.commands[:, self.single.actuated_axes] = given
 
     def _infos(self, waiting: Flags, ended: Flags) -> dict[str, Any]:
         """Return a step's infos: the measures, and what newly begun and ended episodes have besides."""
@@ -425,16 +418,6 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
 
     def _given(self, array: NDArray[Any]) -> NDArray[Any]:
         return array.copy() if self.copy else array
-
-    def _call(self, index: int, name: str, *args: Any, **kwargs: Any) -> Any:
-        single = self.at(index)
-        value = getattr(single, name)
-        if not callable(value):
-            return value
-        result = value(*args, **kwargs)
-        self._memory.set_episode(index, single.episode)
-        self._memory.arrays.generators[index] = words_of(dict(single.np_random.bit_generator.state))
-        return result
 
     def _need_reset(self, what: str) -> None:
         if not self._begun:

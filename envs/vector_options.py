@@ -71,10 +71,17 @@ def split_options(
         InvalidInputError: an option is unknown or wrong.
     """
     given = {name: value for name, value in (options or {}).items() if name != RESET_MASK}
-    for_each = {name: value for name, value in given.items() if np.ndim(value) == 2}
+    for_each = {name: value for name, value in given.items() if _has_rows(value)}
     for_all = check({name: value for name, value in given.items() if name not in for_each})
     rows = {name: _checked_rows(name, value, n, check) for name, value in for_each.items()}
     return for_all, rows
+
+
+def _has_rows(value: Any) -> bool:
+    try:
+        return np.ndim(value) == 2
+    except ValueError:  # a ragged list: the check says what is wrong with it
+        return False
 
 
 def _checked_rows(

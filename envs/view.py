@@ -73,11 +73,12 @@ class EpisodeView:
         """Return a picture in mode "rgb_array"."""
         if self._mode != "rgb_array":
             return None
-        if self._offscreen is None:
-            from dq_marine.viewer.offscreen import OffscreenViewer
+        return self._pictures().render(env.snapshot())
 
-            self._offscreen = OffscreenViewer(self._shape)
-        return self._offscreen.render(env.snapshot())
+    def render_still(self, env: MarineEnv) -> NDArray[np.uint8]:
+        """Return a picture without a trail."""
+        self._pictures().clear_trail()
+        return self._pictures().render(env.snapshot())
 
     def save_html(self, path: str | os.PathLike[str]) -> None:
         """Write the recorded episode as a standalone page."""
@@ -95,6 +96,13 @@ class EpisodeView:
             if viewer is not None:
                 viewer.close()
         self._live = self._offscreen = self._pacer = None
+
+    def _pictures(self) -> OffscreenViewer:
+        if self._offscreen is None:
+            from dq_marine.viewer.offscreen import OffscreenViewer
+
+            self._offscreen = OffscreenViewer(self._shape)
+        return self._offscreen
 
     def _draw_live(self, snapshot: Snapshot) -> None:
         from dq_marine.viewer.live import LiveViewer

@@ -235,7 +235,7 @@ def test_without_copies_the_values_are_the_same():
 
 ATTRIBUTES = (
     "position_ned", "quaternion_body_to_ned", "velocity_body", "time", "observation", "substeps_rescued",
-    "substeps", "control_period", "workspace_radius", "goal_position_ned", "current_speed", "np_random_seed",
+    "substeps", "control_period", "workspace_radius", "goal_position_ned", "current_speed",
 )  # fmt: skip
 
 
@@ -256,24 +256,35 @@ def test_attributes_and_calls_are_those_of_separate_environments():
         envs.call("nonsense", 1)
 
 
-def test_setting_attributes_acts_on_the_next_episodes():
+SETTINGS = {
+    "one value for all": {"start_radius": 0.5, "goal_position_ned": np.array([1.0, 2.0, 6.0])},
+    "one for each": {"start_radius": [0.0, 0.5, 4.0], "goal_position_ned": tuple(np.eye(3))},
+    "generators": {"np_random": [np.random.default_rng(seed) for seed in (7, 8, 9)]},
+    "names of the caller's": {"label": ["a", "b", "c"], "note": "d"},
+}
+
+
+@pytest.mark.parametrize("settings", SETTINGS)
+def test_setting_attributes_acts_on_the_next_episodes(settings):
     envs, gymnasiums = gym.make_vec(ID, num_envs=3), reference(3)
     for each in (envs, gymnasiums):
         each.reset(seed=0)
-        each.set_attr("start_radius", [0.0, 0.5, 4.0])
-        each.set_attr("goal_position_ned", np.array([1.0, 2.0, 6.0]))
-        each.set_attr("np_random", [np.random.default_rng(seed) for seed in (7, 8, 9)])
-        each.set_attr("label", ("a", "b", "c"))
-    assert envs.get_attr("label") == ("a", "b", "c")
-    assert envs.get_attr("start_radius") == (0.0, 0.5, 4.0)
-    first, second = (each.reset() for each in (envs, gymnasiums))
-    assert first[1]["position_error"][0] < 1e-12
-    assert same(first, second)
+        for name, values in copy.deepcopy(SETTINGS[settings]).items():
+            each.set_attr(name, values)
+    for name in SETTINGS[settings]:
+        if name != "np_random":
+            assert same(envs.get_attr(name), gymnasiums.get_attr(name)), name
+    assert same(envs.reset(), gymnasiums.reset())
     for actions in actions_for(envs, periods=3):
         assert same(envs.step(actions), gymnasiums.step(actions))
+
+
+def test_setting_an_attribute_takes_one_value_or_one_for_each():
+    envs = gym.make_vec(ID, num_envs=3)
+    envs.reset(seed=0)
     with pytest.raises(ValueError, match="2"):
         envs.set_attr("start_radius", [0.1, 0.2])
-    assert envs.get_attr("start_radius") == (0.0, 0.5, 4.0)
+    assert envs.get_attr("start_radius") == (2.0, 2.0, 2.0)
 
 
 def test_states_travel_between_vector_and_single_environments():

@@ -1,0 +1,131 @@
+"""The environments of a batch one by one: looked at, called and changed as single ones."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from dq_marine.engines.lane_type import Lanes
+from dq_marine.engines.pcg64 import fill_seeded, state_of, words_of
+from dq_marine.envs.lane_memory import LaneMemory
+from dq_marine.envs.marine_env import MarineEnv
+from dq_marine.errors import InvalidInputError
+
+SEED_UNKNOWN = -1
+"""Gymnasium's seed of a generator that was set directly."""
+
+
+class LaneSingles:
+    """n environments: their memory in lanes, and single environments that take on the state of one.
+
+    Attributes:
+        first: the single environment that stands for all, or for the first.
+        memory: of all.
+        seeds: of the environments, None where there was none yet.
+        commands: actions of the last control period, six axes, shape (n, 6), not saturated.
+        rescued: substeps that plain Newton did not solve, so far, shape (n,).
+    """
+
+    def __init__(self, singles: list[MarineEnv], n: int, lanes: Lanes) -> None:
+        """Lay out n environments like `singles`, one for all or one for each."""
+        self._singles = singles
+        self._lanes = lanes
+        self.n = n
+        self.first = singles[0]
+        self.memory = LaneMemory(singles, n, lanes)
+        self.seeds: list[int | None] = [None] * n
+        self.commands = np.zeros((n, 6))
+        self.rescued = np.zeros(n, np.int64)
+
+    def seed(self, seeds: Sequence[int | None], wanted: Sequence[int]) -> None:
+        """Seed the wanted environments: with their seed, or where they never had one, from fresh entropy."""
+        chosen = [index for index in wanted if seeds[index] is not None or self.seeds[index] is None]
+        if not chosen:
+            return
+        fresh = np.random.SeedSequence().generate_state(len(chosen), np.uint64) >> np.uint64(1)
+        given = [
+            int(entropy if (seed := seeds[index]) is None else seed)
+            for index, entropy in zip(chosen, fresh.tolist(), strict=True)
+        ]
+        for index, seed in zip(chosen, given, strict=True):
+            self.seeds[index] = seed
+        fill_seeded(self.memory.arrays.generators, given, np.array(chosen))
+
+    def aims(self, for_all: dict[str, Any], for_each: dict[str, Any]) -> list[Any]:
+        """Return what episodes aim at with given options, one for all or one for each environment."""
+        if len(self._singles) == 1 and not for_each:
+            return [self.first.new_aim(for_all)]
+        return [
+            self._single(index).new_aim(for_all | {name: rows[index] for name, rows in for_each.items()})
+            for index in range(self.n)
+        ]
+
+    def at(self, index: int) -> MarineEnv:
+        """Return the single environment of one, at the present state of its episode and its generator."""
+        single = self._single(index)
+        generator = np.random.Generator(np.random.PCG64())
+        generator.bit_generator.state = state_of(self.memory.arrays.generators[index])
+        episode = self.memory.episode(index)
+        if episode.periods:
+            episode.action = np.clip(self.commands[index], -1.0, 1.0)
+        single.adopt(episode, generator, self.seeds[index])
+        single.substeps_rescued = int(self.rescued[index])
+        return single
+
+    def call(self, index: int, name: str, *args: Any, **kwargs: Any) -> Any:
+        """Call a method of one environment, and keep what it changes; or return an attribute."""
+        single = self.at(index)
+        value = getattr(single, name)
+        if not callable(value):
+            return value
+        result = value(*args, **kwargs)
+        self.memory.set_episode(index, single.episode)
+        self._set_generator(index, single.np_random)
+        self.commands[index] = single.episode.action
+        self.rescued[index] = single.substeps_rescued
+        return result
+
+    def set_attr(self, name: str, values: Any) -> bool:
+        """Set an attribute of every environment; return whether the memory had to be laid out anew.
+
+        Args:
+            name: of the attribute.
+            values: a list or tuple of one value for each environment, else one value for all.
+
+        Raises:
+            InvalidInputError: there is not one for each.
+        """
+        apart = isinstance(values, list | tuple)
+        if apart and len(values) != self.n:
+            raise InvalidInputError(f"{len(values)} values for {self.n} environments; give one for each")
+        if name == "np_random":
+            for index in range(self.n):
+                self._set_generator(index, values[index] if apart else values)
+                self.seeds[index] = SEED_UNKNOWN
+            return False
+        if apart and len(self._singles) == 1:
+            self._singles = [copy.copy(self.first) for _ in range(self.n)]
+            self.first = self._singles[0]
+        for index, single in enumerate(self._singles):
+            setattr(single, name, values[index] if apart else values)
+        return self._follow()
+
+    def _follow(self) -> bool:
+        """Let new episodes aim at what the single environments say now."""
+        aims = [single.new_aim({}) for single in self._singles]
+        if self.memory.can_hold(aims):
+            self.memory.set_default_aims(aims)
+            return False
+        old = self.memory
+        self.memory = LaneMemory(self._singles, self.n, self._lanes)
+        self.memory.take_over(old)
+        return True
+
+    def _single(self, index: int) -> MarineEnv:
+        return self._singles[index if len(self._singles) > 1 else 0]
+
+    def _set_generator(self, index: int, generator: np.random.Generator) -> None:
+        self.memory.arrays.generators[index] = words_of(dict(generator.bit_generator.state))
