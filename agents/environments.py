@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import gymnasium as gym
@@ -24,13 +26,35 @@ def make_environment(settings: EnvironmentSettings, **keywords: Any) -> gym.Env[
         InvalidInputError: the id is not registered, or a keyword or its value is wrong.
     """
     chosen = {**settings.keywords, **keywords}
-    try:
+    with _refusals_of(settings.id, chosen):
         # The checker wrapper re-examines every step; the tests of the environments do that once.
         return gym.make(settings.id, disable_env_checker=True, **chosen)
+
+
+def make_environments(settings: EnvironmentSettings, count: int) -> gym.vector.VectorEnv[Any, Any, Any]:
+    """Make environments that are stepped together; an ended episode is followed by a new one at the same step.
+
+    Args:
+        settings: id and keywords.
+        count: how many.
+
+    Raises:
+        InvalidInputError: the id is not registered, or a keyword or its value is wrong.
+    """
+    with _refusals_of(settings.id, settings.keywords):
+        mode = gym.vector.AutoresetMode.SAME_STEP
+        return gym.make_vec(settings.id, num_envs=count, autoreset_mode=mode, **settings.keywords)
+
+
+@contextmanager
+def _refusals_of(identifier: str, keywords: dict[str, Any]) -> Iterator[None]:
+    """Say what Gymnasium finds wrong in this package's words."""
+    try:
+        yield
     except gym.error.Error as error:
-        raise InvalidInputError(f"environment id = {settings.id!r}: {error}") from error
+        raise InvalidInputError(f"environment id = {identifier!r}: {error}") from error
     except TypeError as error:
-        raise InvalidInputError(f"environment keywords {sorted(chosen)} are refused: {error}") from error
+        raise InvalidInputError(f"environment keywords {sorted(keywords)} are refused: {error}") from error
 
 
 def with_keywords(settings: EnvironmentSettings, **keywords: Any) -> EnvironmentSettings:

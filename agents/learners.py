@@ -5,24 +5,21 @@ SB3's zip and pickle files run code when they are loaded: load only runs that yo
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import gymnasium as gym
-
-from dq_marine.agents.environments import make_environment
+from dq_marine.agents.environments import make_environments
 from dq_marine.agents.extras import extra_needed
 from dq_marine.agents.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
 from dq_marine.agents.settings import PPOSettings, SACSettings, TrainingSettings
+from dq_marine.agents.vec_env import MarineVecEnv
 
 with extra_needed("training"):
     import torch
     from stable_baselines3 import PPO, SAC
     from stable_baselines3.common.base_class import BaseAlgorithm
-    from stable_baselines3.common.monitor import Monitor
-    from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize
+    from stable_baselines3.common.vec_env import VecMonitor, VecNormalize
 
 Model: TypeAlias = BaseAlgorithm
 """A `PPO` or a `SAC`."""
@@ -50,7 +47,7 @@ def make_training_envs(settings: TrainingSettings) -> VecNormalize:
     """Return the environments to learn in, normalised with running statistics; a model seeds env i with seed + i."""
     normalisation = settings.normalisation
     return VecNormalize(
-        DummyVecEnv([_maker(settings)] * settings.envs),
+        _environments(settings, settings.envs),
         norm_obs=normalisation.observation,
         norm_reward=normalisation.reward,
         clip_obs=normalisation.clip,
@@ -62,7 +59,7 @@ def make_training_envs(settings: TrainingSettings) -> VecNormalize:
 def make_evaluation_envs(settings: TrainingSettings) -> VecNormalize:
     """Return environments to evaluate in, one for each episode; their normalisation follows the training's."""
     return VecNormalize(
-        DummyVecEnv([_maker(settings)] * settings.evaluation.episodes),
+        _environments(settings, settings.evaluation.episodes),
         training=False,
         norm_obs=settings.normalisation.observation,
         norm_reward=False,
@@ -129,11 +126,6 @@ def _sac_keywords(algorithm: SACSettings) -> dict[str, Any]:
     return {name: getattr(algorithm, name) for name in same}
 
 
-def _maker(settings: TrainingSettings) -> Callable[[], gym.Env[Any, Any]]:
-    """Return a function that makes one environment."""
-
-    def make() -> gym.Env[Any, Any]:
-        env: gym.Env[Any, Any] = Monitor(make_environment(settings.environment))
-        return env
-
-    return make
+def _environments(settings: TrainingSettings, count: int) -> VecMonitor:
+    """Return environments that are stepped together and report their episodes."""
+    return VecMonitor(MarineVecEnv(make_environments(settings.environment, count)))

@@ -148,7 +148,7 @@ class Scene:
 
         Args:
             size: number of bodies.
-            threads: None for all cores that the process may use.
+            threads: None for as many as pay: up to all cores that the process may use.
             precision: "float64" or "float32", of which a vector holds twice as many.
             arithmetic: "strict", with the bits of a single body, or "fast": multiply-adds are fused and sums
                 reordered, with other rounding errors.

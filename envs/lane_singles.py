@@ -12,7 +12,6 @@ from dq_marine.engines.lane_type import Lanes
 from dq_marine.engines.pcg64 import fill_seeded, state_of, words_of
 from dq_marine.envs.lane_memory import LaneMemory
 from dq_marine.envs.marine_env import MarineEnv
-from dq_marine.errors import InvalidInputError
 
 SEED_UNKNOWN = -1
 """Gymnasium's seed of a generator that was set directly."""
@@ -59,13 +58,13 @@ class LaneSingles:
         if len(self._singles) == 1 and not for_each:
             return [self.first.new_aim(for_all)]
         return [
-            self._single(index).new_aim(for_all | {name: rows[index] for name, rows in for_each.items()})
+            self.single(index).new_aim(for_all | {name: rows[index] for name, rows in for_each.items()})
             for index in range(self.n)
         ]
 
     def at(self, index: int) -> MarineEnv:
         """Return the single environment of one, at the present state of its episode and its generator."""
-        single = self._single(index)
+        single = self.single(index)
         generator = np.random.Generator(np.random.PCG64())
         generator.bit_generator.state = state_of(self.memory.arrays.generators[index])
         episode = self.memory.episode(index)
@@ -76,41 +75,34 @@ class LaneSingles:
         return single
 
     def call(self, index: int, name: str, *args: Any, **kwargs: Any) -> Any:
-        """Call a method of one environment, and keep what it changes; or return an attribute."""
+        """Call a method of one environment, and keep what it changes."""
         single = self.at(index)
-        value = getattr(single, name)
-        if not callable(value):
-            return value
-        result = value(*args, **kwargs)
+        result = getattr(single, name)(*args, **kwargs)
         self.memory.set_episode(index, single.episode)
         self._set_generator(index, single.np_random)
         self.commands[index] = single.episode.action
         self.rescued[index] = single.substeps_rescued
         return result
 
-    def set_attr(self, name: str, values: Any) -> bool:
-        """Set an attribute of every environment; return whether the memory had to be laid out anew.
+    def set_attribute(self, chosen: Sequence[int], name: str, values: Sequence[Any]) -> bool:
+        """Set an attribute of chosen environments; return whether the memory had to be laid out anew.
 
         Args:
+            chosen: indices of the environments.
             name: of the attribute.
-            values: a list or tuple of one value for each environment, else one value for all.
-
-        Raises:
-            InvalidInputError: there is not one for each.
+            values: one for each of them.
         """
-        apart = isinstance(values, list | tuple)
-        if apart and len(values) != self.n:
-            raise InvalidInputError(f"{len(values)} values for {self.n} environments; give one for each")
         if name == "np_random":
-            for index in range(self.n):
-                self._set_generator(index, values[index] if apart else values)
+            for index, value in zip(chosen, values, strict=True):
+                self._set_generator(index, value)
                 self.seeds[index] = SEED_UNKNOWN
             return False
-        if apart and len(self._singles) == 1:
+        for_all = len(chosen) == self.n and all(value is values[0] for value in values)
+        if not for_all and len(self._singles) == 1:
             self._singles = [copy.copy(self.first) for _ in range(self.n)]
             self.first = self._singles[0]
-        for index, single in enumerate(self._singles):
-            setattr(single, name, values[index] if apart else values)
+        for index, value in zip(chosen, values, strict=True):
+            setattr(self.single(index), name, value)
         return self._follow()
 
     def _follow(self) -> bool:
@@ -124,7 +116,8 @@ class LaneSingles:
         self.memory.take_over(old)
         return True
 
-    def _single(self, index: int) -> MarineEnv:
+    def single(self, index: int) -> MarineEnv:
+        """Return the single environment of one, whatever its episode."""
         return self._singles[index if len(self._singles) > 1 else 0]
 
     def _set_generator(self, index: int, generator: np.random.Generator) -> None:

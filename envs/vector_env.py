@@ -20,7 +20,7 @@ from dq_marine.engines.lane_period import (
     renew_at_same_step,
 )
 from dq_marine.engines.lanes import lanes_of
-from dq_marine.engines.workers import Workers, checked_threads
+from dq_marine.engines.workers import Workers
 from dq_marine.envs.lane_memory import (
     COMPLETED,
     RESCUED,
@@ -87,7 +87,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             vehicle: as for the single environment; or a list of them, one for each, which may differ in every number.
             max_episode_steps: control periods after which an episode is truncated.
             autoreset_mode: what follows the end of an episode, see Gymnasium's `AutoresetMode`.
-            threads: None for all cores that the process may use.
+            threads: None for as many as pay: up to all cores that the process may use.
             precision: "float64", or "float32", which is faster.
             arithmetic: "strict", with the bits of the single environment, or "fast", with other rounding errors.
             copy: whether what `step` returns is the caller's own; if not, the next step overwrites it.
@@ -104,7 +104,8 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         singles = self._made_singles(vehicle, single_arguments)
         single = singles[0]
         self._lanes = LaneSingles(singles, self.num_envs, lanes_of(precision, arithmetic))
-        self._workers = Workers(checked_threads(threads), len(self._memory.arrays.states))
+        self._threads = threads
+        self._workers = Workers(threads, len(self._memory.arrays.states))
         self._compile()
 
         self.render_mode = single.render_mode
@@ -222,10 +223,14 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
 
     def call_at(self, index: int, name: str, *args: Any, **kwargs: Any) -> Any:
         """Call a method of one environment, or get an attribute; what the call changes is kept."""
-        if not self._begun:
-            value = getattr(self.single, name)
+        value = self.attribute_at(index, name)
+        if not callable(value) or not self._begun:
             return value(*args, **kwargs) if callable(value) else value
         return self._lanes.call(index, name, *args, **kwargs)
+
+    def attribute_at(self, index: int, name: str) -> Any:
+        """Return an attribute of one environment."""
+        return getattr(self.at(index) if self._begun else self._lanes.single(index), name)
 
     def get_attr(self, name: str) -> tuple[Any, ...]:
         """Return an attribute of every environment."""
@@ -243,7 +248,15 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         Raises:
             InvalidInputError: there is not one for each.
         """
-        if self._lanes.set_attr(name, values):
+        each = values if isinstance(values, list | tuple) else [values] * self.num_envs
+        if len(each) != self.num_envs:
+            raise InvalidInputError(f"{len(each)} values for {self.num_envs} environments; give one for each")
+        if self._lanes.set_attribute(range(self.num_envs), name, each):
+            self._compile()
+
+    def set_attribute_at(self, indices: Sequence[int], name: str, value: Any) -> None:
+        """Set an attribute of some environments to one value; see `set_attr`."""
+        if self._lanes.set_attribute(indices, name, [value] * len(indices)):
             self._compile()
 
     @property
@@ -283,7 +296,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Compile again, from the cache on disk."""
         self.__dict__.update(state)
-        self._workers = Workers(state["_threads"], len(self._memory.arrays.states))
+        self._workers = Workers(self._threads, len(self._memory.arrays.states))
         self._compile()
 
     # Inside
@@ -293,7 +306,6 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         return self._lanes.memory
 
     def _compile(self) -> None:
-        self._threads = self._workers.threads
         parts = (self.single.scene.composition, self.single.task, self._memory.layout)
         self._period = compiled_period(*parts, RENEWALS[self.autoreset_mode])
         self._begin_compiled = compiled_begin(*parts)
@@ -425,11 +437,13 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
 
 
 def _checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
-    try:
-        return AutoresetMode(mode)
-    except ValueError as error:
-        known = [member.value for member in AutoresetMode]
-        raise InvalidInputError(f"autoreset_mode = {mode!r} is unknown; give one of {known}") from error
+    """Return the mode of a member, its value or its name, in any case."""
+    plain = mode.value if isinstance(mode, AutoresetMode) else str(mode)
+    for member in AutoresetMode:
+        if plain.replace("_", "").lower() == member.value.lower():
+            return member
+    known = [member.value for member in AutoresetMode]
+    raise InvalidInputError(f"autoreset_mode = {mode!r} is unknown; give one of {known}")
 
 
 _NOT_CARRIED = ("_period", "_begin_compiled", "_workers")

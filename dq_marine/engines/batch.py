@@ -13,7 +13,7 @@ from dq_marine.engines.lane_packing import empty_blocks, pack_blocks, pack_share
 from dq_marine.engines.lanes import compiled_lane_advance, differing_fields, lane_layout, lanes_of
 from dq_marine.engines.one_body import AT_REST, REFUSALS
 from dq_marine.engines.packing import pack, unpack_columns
-from dq_marine.engines.workers import Workers, checked_threads
+from dq_marine.engines.workers import Workers
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.body import BodyState
 from dq_marine.kernel.dual_quaternion import pose_position
@@ -75,7 +75,7 @@ class Batch:
         self._outcomes = empty_blocks(layout.outcome, self.size, lanes)
         self._advance = compiled_lane_advance(composition, layout)
         self._motion, self._place = make_motion(composition), make_placement(composition)
-        self._workers = Workers(checked_threads(threads), len(self._states))
+        self._workers = Workers(threads, len(self._states))
         self.steps_rescued = self.steps_refused = 0
         self.time = 0.0
         self.reset()

@@ -12,6 +12,9 @@ from dq_marine.errors import InvalidInputError
 
 MOST_THREADS = 1024
 
+BLOCKS_WORTH_A_THREAD = 64
+"""Waking a thread takes some 50 us, in which one computes about as many blocks."""
+
 
 def usable_cores() -> int:
     """Return how many cores this process may run on."""
@@ -20,19 +23,19 @@ def usable_cores() -> int:
     return os.cpu_count() or 1
 
 
-def checked_threads(threads: int | None) -> int:
-    """Return a number of threads; None means all cores that the process may use.
+def checked_threads(threads: int | None, blocks: int) -> int:
+    """Return a number of threads for some blocks; None means as many as pay.
 
     Raises:
         InvalidInputError: it is not a whole number from 1 to `MOST_THREADS`.
     """
     if threads is None:
-        return usable_cores()
+        return max(1, min(usable_cores(), blocks // BLOCKS_WORTH_A_THREAD))
     if isinstance(threads, bool) or not isinstance(threads, int) or not 1 <= threads <= MOST_THREADS:
         raise InvalidInputError(
             f"threads = {threads!r}; give None or a whole number from 1 to {MOST_THREADS}"
         )
-    return threads
+    return min(threads, blocks)
 
 
 class Workers:
@@ -41,8 +44,8 @@ class Workers:
     The calling thread does a share of its own. Compiled functions release the interpreter's lock while they run.
     """
 
-    def __init__(self, threads: int, blocks: int) -> None:
-        self.threads = min(threads, blocks)
+    def __init__(self, threads: int | None, blocks: int) -> None:
+        self.threads = checked_threads(threads, blocks)
         edges = [blocks * part // self.threads for part in range(self.threads + 1)]
         self._shares = list(pairwise(edges))
         self._pool: ThreadPoolExecutor | None = None
