@@ -14,6 +14,8 @@ from dq_marine.agents.extras import extra_needed
 from dq_marine.agents.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
 from dq_marine.agents.settings import PPOSettings, SACSettings, TrainingSettings
 from dq_marine.agents.vec_env import MarineVecEnv
+from dq_marine.envs.vector_env import DQMarineVectorEnv
+from dq_marine.errors import InvalidInputError
 
 with extra_needed("training"):
     import torch
@@ -88,6 +90,15 @@ def make_model(settings: TrainingSettings, seed: int, tensorboard: Path) -> Mode
         return SAC(**common, **_sac_keywords(algorithm), policy_kwargs=network)
     network["log_std_init"] = algorithm.log_std_init
     return PPO(**common, **_ppo_keywords(algorithm, settings.envs), policy_kwargs=network)
+
+
+def environments_of(model: Model) -> DQMarineVectorEnv:
+    """Return the environments that a model learns in, inside their wrappers."""
+    envs = model.get_env()
+    inner = envs.unwrapped if envs is not None else None
+    if not isinstance(inner, MarineVecEnv):
+        raise InvalidInputError(f"{model} learns in {inner}, not in environments of dq_marine")
+    return inner.envs
 
 
 def save_model(model: Model, folder: Path, *, replay_buffer: bool) -> None:

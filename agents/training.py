@@ -17,7 +17,7 @@ from dq_marine.agents.callbacks import Checkpoints, Evaluations, ProgressUpdates
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation import Score, evaluate
 from dq_marine.agents.extras import extra_needed
-from dq_marine.agents.learners import Model, load_model, make_evaluation_envs, make_model
+from dq_marine.agents.learners import Model, environments_of, load_model, make_evaluation_envs, make_model
 from dq_marine.agents.policies import Agent
 from dq_marine.agents.run_folder import RunFolder, RunPlan
 from dq_marine.agents.settings import TrainingSettings
@@ -60,7 +60,13 @@ class Summary:
 
 
 def begin_training(
-    folder: RunFolder, settings: TrainingSettings, *, seed: int = 0, force: bool = False, console: Console
+    folder: RunFolder,
+    settings: TrainingSettings,
+    *,
+    seed: int = 0,
+    force: bool = False,
+    console: Console,
+    watch: bool = False,
 ) -> Summary:
     """Train from scratch.
 
@@ -70,6 +76,7 @@ def begin_training(
         seed: of networks, environments and draws.
         force: replace the run in the folder.
         console: to tell progress on.
+        watch: open a page that follows one of the environments.
 
     Raises:
         InvalidInputError: the folder is taken, or the environment's keywords are wrong.
@@ -77,16 +84,19 @@ def begin_training(
     make_environment(settings.environment).close()  # so that a mistake leaves an earlier run untouched
     plan = RunPlan(settings, seed, _versions())
     folder.begin(plan, force=force)
-    return _train(folder, plan, console)
+    return _train(folder, plan, console, watch)
 
 
-def resume_training(folder: RunFolder, *, timesteps: int | None = None, console: Console) -> Summary:
+def resume_training(
+    folder: RunFolder, *, timesteps: int | None = None, console: Console, watch: bool = False
+) -> Summary:
     """Go on from the latest checkpoint, or from scratch if none was reached.
 
     Args:
         folder: of the run.
         timesteps: a new total; None keeps the run's.
         console: to tell progress on.
+        watch: open a page that follows one of the environments.
 
     Raises:
         InvalidInputError: there is no run, or it has its timesteps already.
@@ -100,7 +110,7 @@ def resume_training(folder: RunFolder, *, timesteps: int | None = None, console:
             f"{folder.path} has learned from {done} timesteps, of {total} asked for; ask for more with --timesteps"
         )
     folder.write_plan(plan)
-    return _train(folder, plan, console)
+    return _train(folder, plan, console, watch)
 
 
 def summary_table(summary: Summary) -> Table:
@@ -119,11 +129,13 @@ def summary_table(summary: Summary) -> Table:
     return table
 
 
-def _train(folder: RunFolder, plan: RunPlan, console: Console) -> Summary:
+def _train(folder: RunFolder, plan: RunPlan, console: Console, watch: bool) -> Summary:
     settings = plan.settings
     torch.set_num_threads(settings.torch_threads)
     saver = Saver(folder)
     model = _model(folder, plan)
+    if watch:
+        environments_of(model).watch(0)
     began_at, wall_before = model.num_timesteps, saver.wall_time
     evaluations = Evaluations(
         make_evaluation_envs(settings),
@@ -145,6 +157,7 @@ def _train(folder: RunFolder, plan: RunPlan, console: Console) -> Summary:
             ],
             reset_num_timesteps=False,
         )
+    environments_of(model).close()
     saver.save("checkpoints", model)
     if folder.latest("best") is None:  # the run was shorter than the first evaluation
         saver.save("best", model)

@@ -268,6 +268,9 @@ def train(
     current: CurrentOption = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the run's latest checkpoint.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace the run in the folder.")] = False,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Open a page that follows one of the environments.")
+    ] = False,
 ) -> None:
     """Train an agent with PPO or SAC; a run that was killed can be resumed."""
     from dq_marine.agents.command_options import requested_training
@@ -299,9 +302,11 @@ def train(
 
     try:
         if settings is None:
-            summary = resume_training(folder, timesteps=timesteps, console=console)
+            summary = resume_training(folder, timesteps=timesteps, console=console, watch=watch)
         else:
-            summary = begin_training(folder, settings, seed=seed or 0, force=force, console=console)
+            summary = begin_training(
+                folder, settings, seed=seed or 0, force=force, console=console, watch=watch
+            )
     except KeyboardInterrupt:
         done = folder.progress("checkpoints").timesteps
         console.print(

@@ -233,8 +233,21 @@ def batch_of(
 
     if not scenes or (size is not None and len(scenes) not in (1, size)):
         raise InvalidInputError(f"{len(scenes)} scenes for {size} bodies; give one, or one for each body")
-    bodies = len(scenes) if size is None else size
-    return Batch(scenes, bodies, threads=threads, precision=precision, arithmetic=arithmetic)
+    first = scenes[0]
+    if any(scene.composition != first.composition or scene.step != first.step for scene in scenes):
+        raise InvalidInputError(
+            "the scenes of a batch differ in what they compute, or in their step; give scenes of equal terms, "
+            "scheme, order, kick and step (a term that is zero is left out: give it a tiny value)"
+        )
+    return Batch(
+        first.composition,
+        [scene.parameters_at(scene.step) for scene in scenes],
+        first.step,
+        len(scenes) if size is None else size,
+        threads=threads,
+        precision=precision,
+        arithmetic=arithmetic,
+    )
 
 
 def checked_forces(forces: Sequence[ForceTerm]) -> tuple[ForceTerm, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from dq_marine.engines.lane_type import Lanes
 from dq_marine.engines.pcg64 import fill_seeded, state_of, words_of
 from dq_marine.envs.lane_memory import LaneMemory
 from dq_marine.envs.marine_env import MarineEnv
+from dq_marine.errors import InvalidInputError
 
 SEED_UNKNOWN = -1
 """Gymnasium's seed of a generator that was set directly."""
@@ -122,3 +123,33 @@ class LaneSingles:
 
     def _set_generator(self, index: int, generator: np.random.Generator) -> None:
         self.memory.arrays.generators[index] = words_of(dict(generator.bit_generator.state))
+
+
+def made_singles(
+    single_class: Callable[..., MarineEnv], vehicle: Any, n: int, arguments: dict[str, Any]
+) -> list[MarineEnv]:
+    """Return single environments: one that stands for all n, or where `vehicle` is a list, one for each.
+
+    Raises:
+        InvalidInputError: there is not a vehicle for each, they differ in what is to be computed, or something is to
+            be recorded.
+        VehicleFileError: a vehicle file is wrong.
+    """
+    if arguments.pop("record", False):
+        raise InvalidInputError(
+            "record = True; a vector environment records nothing, make a single one for that"
+        )
+    if not isinstance(vehicle, list | tuple):
+        return [single_class(vehicle, **arguments)]
+    if len(vehicle) != n:
+        raise InvalidInputError(f"{len(vehicle)} vehicles for {n} environments; give one for each")
+    singles = [single_class(one, **arguments) for one in vehicle]
+    first = singles[0]
+    for index, single in enumerate(singles):
+        same_terms = single.scene.composition == first.scene.composition
+        if not same_terms or single.action_space != first.action_space:
+            raise InvalidInputError(
+                f"vehicle[{index}] has terms {list(single.scene.terms)} and axes {single.actuated_axes}, vehicle[0] "
+                f"{list(first.scene.terms)} and {first.actuated_axes}; they must not differ"
+            )
+    return singles

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any, ClassVar
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from gymnasium.error import ResetNeeded
@@ -21,20 +22,18 @@ from dq_marine.engines.lane_period import (
 )
 from dq_marine.engines.lanes import lanes_of
 from dq_marine.engines.workers import Workers
-from dq_marine.envs.lane_memory import (
-    COMPLETED,
-    RESCUED,
-    RESIDUAL_SQUARED,
-    SPEED_SQUARED,
-    SPIN_SQUARED,
-    STATUS,
-    LaneMemory,
-)
-from dq_marine.envs.lane_singles import LaneSingles
+from dq_marine.envs.lane_memory import RESCUED, LaneMemory
+from dq_marine.envs.lane_singles import LaneSingles, made_singles
 from dq_marine.envs.marine_env import MarineEnv
+from dq_marine.envs.vector_infos import VectorInfos
 from dq_marine.envs.vector_options import CHOSEN_SLICES, checked_mask, checked_seeds, split_options
+from dq_marine.envs.view import open_page, shape_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import Vehicle
+from dq_marine.viewer.snapshot import Snapshot
+
+if TYPE_CHECKING:
+    from dq_marine.envs.lane_watch import LaneWatch
 
 Observations = NDArray[np.float32]
 Flags = NDArray[np.bool_]
@@ -47,18 +46,12 @@ RENEWALS = {
 }
 
 
-REPORTED = (STATUS, COMPLETED, RESIDUAL_SQUARED, SPIN_SQUARED, SPEED_SQUARED)
-"""Fields of an outcome that a report of a refusal is made of."""
-
-
 class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
     """n environments of one task, stepped together. `gym.make_vec` makes one.
 
     Environment i behaves like the single environment seeded with its seed: to the last bit with strict arithmetic in
     double precision. A task derives from it and names its single environment.
 
-    Attributes:
-        episodes_refused: episodes that ended because the integrator refused a step.
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 10}  # type: ignore[misc]
@@ -101,7 +94,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self.num_envs = positive_integer("num_envs", num_envs)
         self.max_episode_steps = positive_integer("max_episode_steps", max_episode_steps)
         self.autoreset_mode = _checked_mode(autoreset_mode)
-        singles = self._made_singles(vehicle, single_arguments)
+        singles = made_singles(self.single_class, vehicle, self.num_envs, single_arguments)
         single = singles[0]
         self._lanes = LaneSingles(singles, self.num_envs, lanes_of(precision, arithmetic))
         self._threads = threads
@@ -116,9 +109,9 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
 
         self.copy = bool(copy)
-        self.episodes_refused = 0
-        self._everywhere = np.ones(self.num_envs, np.bool_)
+        self._infos = VectorInfos(self, self._lanes)
         self._begun = False
+        self._watch: LaneWatch | None = None
 
     # Gymnasium
 
@@ -143,7 +136,9 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self._lanes.seed(seeds, np.flatnonzero(wanted).tolist())
         self._begin(wanted, for_all, for_each)
         self._begun = True
-        return self._observations(), self._measured(wanted) | self._currents(wanted)
+        if self.render_mode == "human" and self._watch is None:
+            self.watch(0)
+        return self._observations(), self._infos.at_reset(wanted)
 
     def step(self, actions: NDArray[Any]) -> StepResult:
         """Hold an action in every environment for one control period.
@@ -176,19 +171,21 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             float(self.max_episode_steps),
         )
         np.add(self._lanes.rescued, self._memory.outcome(RESCUED), out=self._lanes.rescued, casting="unsafe")
+        if self._watch is not None:
+            self._watch.offer(partial(self._snapshot, self._watch.index))
         terminated, truncated = arrays.terminated[: self.num_envs], arrays.truncated[: self.num_envs]
         return (
             self._observations(),
             self._given(arrays.rewards[: self.num_envs]),
             self._given(terminated),
             self._given(truncated),
-            self._infos(waiting, terminated | truncated),
+            self._infos.at_step(waiting, terminated | truncated),
         )
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """Return a picture of every environment in mode "rgb_array", about 50 ms each; None otherwise.
 
-        In mode "human" a page follows the first environment by itself; see `watch`.
+        In mode "human" a page follows the first environment from `reset` on; see `watch`.
 
         Raises:
             ResetNeeded: before the first reset.
@@ -199,8 +196,35 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             return None
         return tuple(self.at(index).render_still() for index in range(self.num_envs))
 
+    def watch(self, index: int | None) -> str | None:
+        """Open a page that follows one environment while the batch runs, at its own pace; None closes it.
+
+        Args:
+            index: of the environment.
+
+        Returns:
+            The page's address, which only this computer can reach.
+
+        Raises:
+            InvalidInputError: there is no such environment.
+            MissingDependencyError: meshcat is not installed.
+        """
+        if index is not None and not 0 <= index < self.num_envs:
+            raise InvalidInputError(f"index = {index}; give one from 0 to {self.num_envs - 1}")
+        if self._watch is not None:
+            self._watch.close()
+            self._watch = None
+        if index is None:
+            return None
+        from dq_marine.envs.lane_watch import LaneWatch  # here: it imports the viewer
+
+        shape = shape_of(self._lanes.single(index).vehicle)
+        self._watch = LaneWatch(index, lambda: open_page(shape))
+        return self._watch.url
+
     def close_extras(self, **kwargs: Any) -> None:
         """End threads and windows."""
+        self.watch(None)
         self._workers.close()
         self.single.close()
 
@@ -280,6 +304,11 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         return int(self._lanes.rescued.sum())
 
     @property
+    def episodes_refused(self) -> int:
+        """Episodes so far that ended because the integrator refused a step."""
+        return self._infos.episodes_refused
+
+    @property
     def threads(self) -> int:
         """Number of threads in use."""
         return self._workers.threads
@@ -297,6 +326,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         """Compile again, from the cache on disk."""
         self.__dict__.update(state)
         self._workers = Workers(self._threads, len(self._memory.arrays.states))
+        self._watch = None
         self._compile()
 
     # Inside
@@ -309,29 +339,6 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         parts = (self.single.scene.composition, self.single.task, self._memory.layout)
         self._period = compiled_period(*parts, RENEWALS[self.autoreset_mode])
         self._begin_compiled = compiled_begin(*parts)
-
-    def _made_singles(self, vehicle: Any, arguments: dict[str, Any]) -> list[MarineEnv]:
-        """Return the single environments: one that stands for all, or one for each."""
-        if arguments.pop("record", False):
-            raise InvalidInputError(
-                "record = True; a vector environment records nothing, make a single one for that"
-            )
-        if not isinstance(vehicle, list | tuple):
-            return [self.single_class(vehicle, **arguments)]
-        if len(vehicle) != self.num_envs:
-            raise InvalidInputError(
-                f"{len(vehicle)} vehicles for {self.num_envs} environments; give one for each"
-            )
-        singles = [self.single_class(one, **arguments) for one in vehicle]
-        first = singles[0]
-        for index, single in enumerate(singles):
-            same_terms = single.scene.composition == first.scene.composition
-            if not same_terms or single.action_space != first.action_space:
-                raise InvalidInputError(
-                    f"vehicle[{index}] has terms {list(single.scene.terms)} and axes {single.actuated_axes}, "
-                    f"vehicle[0] {list(first.scene.terms)} and {first.actuated_axes}; they must not differ"
-                )
-        return singles
 
     def _begin(self, wanted: Flags, for_all: dict[str, Any], for_each: dict[str, Any]) -> None:
         """Begin episodes in the wanted environments, drawn but for what was chosen."""
@@ -371,65 +378,14 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
                 )
         self._lanes.commands[:, self.single.actuated_axes] = given
 
-    def _infos(self, waiting: Flags, ended: Flags) -> dict[str, Any]:
-        """Return a step's infos: the measures, and what newly begun and ended episodes have besides."""
-        infos = self._measured(self._everywhere)
-        refusals = self._refusals()
-        if self.autoreset_mode is not AutoresetMode.SAME_STEP:
-            for index, report in refusals.items():
-                infos = self._add_info(infos, {"integration": report}, index)
-            return infos | self._currents(waiting)
-        if ended.any():
-            final = self._measured(ended, final=True)
-            for index, report in refusals.items():
-                final = self._add_info(final, {"integration": report}, index)
-            observations = np.full(self.num_envs, None, dtype=object)
-            for index in np.flatnonzero(ended).tolist():
-                observations[index] = self._memory.arrays.final_observations[index].copy()
-            infos |= {"final_obs": observations, "_final_obs": ended.copy()}
-            infos |= {"final_info": final, "_final_info": ended.copy()}
-            infos |= self._currents(ended)
-        return infos
-
-    def _measured(self, where: Flags, *, final: bool = False) -> dict[str, Any]:
-        """Return the measures and the success of some environments, with masks, as Gymnasium merges infos."""
-        arrays = self._memory.arrays
-        rows = (arrays.final_measures if final else arrays.measures)[:, : self.num_envs]
-        names = self.single.task.measure_names
-        whole = where is self._everywhere
-        measures = {
-            name: self._given(row) if whole else np.where(where, row, 0.0)
-            for name, row in zip(names, rows, strict=True)
-        }
-        success = self.single.succeeds(measures) & where
-        infos = measures | {"is_success": success}
-        return infos | {f"_{name}": self._given(where) for name in infos}
-
-    def _currents(self, where: Flags) -> dict[str, Any]:
-        """Return the currents of newly begun episodes, none if there is none."""
-        if not where.any():
-            return {}
-        currents = self._memory.arrays.drawn_currents[: self.num_envs]
-        return {"current_ned": np.where(where[:, None], currents, 0.0), "_current_ned": where.copy()}
-
-    def _refusals(self) -> dict[int, dict[str, Any]]:
-        """Return why the integrator refused, by environment."""
-        status = self._memory.outcome(STATUS)
-        refused = np.flatnonzero(status)
-        self.episodes_refused += len(refused)
-        if not refused.size:
-            return {}
-        outcomes = np.stack([self._memory.outcome(field)[refused] for field in REPORTED], axis=1).tolist()
-        return {
-            index: self.single.integration_report(int(why), int(completed), *squares)
-            for index, (why, completed, *squares) in zip(refused.tolist(), outcomes, strict=True)
-        }
-
     def _observations(self) -> Observations:
         return self._given(self._memory.arrays.observations[: self.num_envs])
 
     def _given(self, array: NDArray[Any]) -> NDArray[Any]:
         return array.copy() if self.copy else array
+
+    def _snapshot(self, index: int) -> Snapshot:
+        return self.at(index).snapshot()
 
     def _need_reset(self, what: str) -> None:
         if not self._begun:
@@ -446,4 +402,4 @@ def _checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
     raise InvalidInputError(f"autoreset_mode = {mode!r} is unknown; give one of {known}")
 
 
-_NOT_CARRIED = ("_period", "_begin_compiled", "_workers")
+_NOT_CARRIED = ("_period", "_begin_compiled", "_workers", "_watch")

@@ -36,6 +36,15 @@ def shape_of(vehicle: Vehicle) -> Shape:
     )
 
 
+def open_page(shape: Shape) -> LiveViewer:
+    """Open a live page and say where it is."""
+    from dq_marine.viewer.live import LiveViewer
+
+    page = LiveViewer(shape, open_browser=True)
+    announce(f"the live page is at {page.url}")
+    return page
+
+
 class EpisodeView:
     """Draws and records the episodes of one environment; opens nothing before it is needed."""
 
@@ -105,12 +114,10 @@ class EpisodeView:
         return self._offscreen
 
     def _draw_live(self, snapshot: Snapshot) -> None:
-        from dq_marine.viewer.live import LiveViewer
         from dq_marine.viewer.pacing import RealTimePacer
 
         if self._live is None:
-            self._live = LiveViewer(self._shape, open_browser=True)
-            announce(f"the live page is at {self._live.url}")
+            self._live = open_page(self._shape)
         if self._pacer is None:
             self._pacer = RealTimePacer()
         self._pacer.wait_until(snapshot.time)

@@ -90,7 +90,7 @@ def test_a_missing_extra_is_named(tmp_path: Path, missing: list[str], command: s
     result = python(code)
     assert result.returncode == 1
     assert re.search(
-        rf"Error: \w+ needs '{missing[0]}.*pip install \"dq-marine\[agents\]\"", result.stderr
+        rf"Error: \w+ needs '(?:{'|'.join(missing)}).*pip install \"dq-marine\[agents\]\"", result.stderr
     ), result.stderr
     assert not list(tmp_path.iterdir())
 

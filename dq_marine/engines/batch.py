@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,10 +19,7 @@ from dq_marine.kernel.body import BodyState
 from dq_marine.kernel.dual_quaternion import pose_position
 from dq_marine.kernel.inertia import twist_from_momentum
 from dq_marine.kernel.spatial import from_fossen, to_fossen
-from dq_marine.kernel.step import ACCEPTED, StepParameters, make_motion, make_placement
-
-if TYPE_CHECKING:
-    from dq_marine.scene import Scene
+from dq_marine.kernel.step import ACCEPTED, Composition, StepParameters, make_motion, make_placement
 
 STATUS, RESCUED, RESIDUAL_SQUARED = range(3)
 """Fields of an outcome."""
@@ -47,27 +44,32 @@ class Batch:
 
     def __init__(
         self,
-        scenes: Sequence[Scene],
+        composition: Composition,
+        parameters: Sequence[StepParameters],
+        step_size: float,
         size: int,
         *,
         threads: int | None = None,
         precision: str = "float64",
         arithmetic: str = "strict",
     ) -> None:
-        """Lay out the bodies; see `Scene.batch` for the arguments. `scenes` has one for all, or one for each."""
+        """Lay out the bodies; see `Scene.batch` for the options.
+
+        Args:
+            composition: the functions of the step.
+            parameters: the numbers of the step, one for all bodies, or one for each.
+            step_size: the h that the parameters are for [s].
+            size: number of bodies.
+            threads: None for as many as pay.
+            precision: of the numbers in lanes.
+            arithmetic: "strict" or "fast".
+        """
         self.size = positive_integer("the number of bodies", size)
         lanes = lanes_of(precision, arithmetic)
-        composition = scenes[0].composition
-        if any(scene.composition != composition or scene.step != scenes[0].step for scene in scenes):
-            raise InvalidInputError(
-                "the scenes of a batch differ in what they compute, or in their step; give scenes of equal terms, "
-                "scheme, order, kick and step (a term that is zero is left out: give it a tiny value)"
-            )
-        self.step_size = scenes[0].step
-        rows = [scene.parameters_at(scene.step) for scene in scenes]
-        packed = [pack(row) for row in rows]
-        self._like = rows[0]
-        self._layout = layout = lane_layout(rows[0], differing_fields(rows), lanes)
+        self.step_size = step_size
+        packed = [pack(row) for row in parameters]
+        self._like = parameters[0]
+        self._layout = layout = lane_layout(parameters[0], differing_fields(parameters), lanes)
         self._shared = pack_shared(layout.parameters, packed[0])
         self._own = empty_blocks(layout.parameters, self.size, lanes)
         pack_blocks(layout.parameters, packed, self._own)

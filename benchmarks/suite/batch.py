@@ -1,0 +1,151 @@
+"""Section: many bodies, by size, threads, arithmetic and precision."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import Any
+
+from dq_marine.engines.batch import Batch
+from dq_marine.scene import Scene
+from suite.bodies import check_all_went, driven, full_scene, random_vehicles, wrenches
+from suite.plan import Plan, Section
+from suite.tables import Row, digits, distinct, find, millions, noise, table
+from suite.timing import Case, compare, rounded
+
+SIZES = tuple(4**k for k in range(9))
+QUICK_SIZES = (1, 64, 4096)
+KINDS = (("strict", "float64"), ("fast", "float64"), ("strict", "float32"), ("fast", "float32"))
+OWN_KINDS = KINDS[:2]
+CALLS = (100, 1)
+"""Steps in a call."""
+
+DISTINCT_VEHICLES = 256
+SHOWN_SIZE = 4096
+
+Key = tuple[str, int, str, str, int]
+
+METHOD = f"""\
+`Scene.batch` of BlueROV2 Heavies with everything that the scene can have: net weight, righting moment, linear and quadratic
+damping, a current, and a wrench of its own for each body. Million steps of a body in a second, with 100 steps in a call and
+with one; a call checks and copies the wrenches, which is part of the time. *strict* has the bits of the single body, *fast*
+fuses multiply-adds and reorders sums. Empty cells: fewer blocks of bodies than threads.
+
+The last table is for `batch_of` with {DISTINCT_VEHICLES} random vehicles, dealt out over the bodies, whose numbers all differ
+and are loaded for each body.
+"""
+
+
+def measure(plan: Plan) -> dict[str, Any]:
+    """Return times of a body's step."""
+    rows: list[Row] = []
+    fleet = [full_scene(vehicle) for vehicle in random_vehicles(DISTINCT_VEHICLES)]
+    for size in plan.pick(SIZES, QUICK_SIZES):
+        rows += rows_of_size(plan, size, fleet)
+    return {"rows": rows}
+
+
+def rows_of_size(plan: Plan, size: int, fleet: list[Scene]) -> list[Row]:
+    """Return all kinds of batches of one size, measured in turn."""
+    scenes = {"alike": [full_scene()], "own": (fleet * (size // len(fleet) + 1))[:size]}
+    batches: dict[Key, Batch] = {}
+    cases: dict[Key, Case] = {}
+    for vehicles, threads in product(scenes, plan.threads):
+        for arithmetic, precision in KINDS if vehicles == "alike" else OWN_KINDS:
+            plan.tell(f"{size:,} bodies, {arithmetic} {precision}, vehicles {vehicles}")
+            batch = driven(scenes[vehicles], size, threads, arithmetic, precision)
+            for steps in CALLS if vehicles == "alike" else CALLS[:1]:
+                key = (vehicles, threads, arithmetic, precision, steps)
+                batches[key], cases[key] = batch, stepping(batch, steps)
+    plan.tell(f"{size:,} bodies, all in turn")
+    timings = compare(cases, plan.rounds)
+    for batch in batches.values():
+        check_all_went(batch)
+        batch.close()
+    return [
+        dict(zip(("vehicles", "threads", "arithmetic", "precision", "steps"), key, strict=True))
+        | {"bodies": size, "threads_used": batch.threads, "bytes_per_body": rounded(batch.bytes_per_body)}
+        | {"steps_rescued": batch.steps_rescued}
+        | timings[key].row()
+        for key, batch in batches.items()
+    ]
+
+
+def stepping(batch: Batch, steps: int) -> Case:
+    """Return the case of a call."""
+    pushes = wrenches(batch.size)
+    return Case(lambda: batch.step(pushes, steps=steps), batch.size * steps)
+
+
+def tables(content: dict[str, Any]) -> str:
+    """Return rates by size, their scaling, and vehicles of their own."""
+    rows = content["rows"]
+    parts = [
+        f"Million steps a second, {steps} {'steps' if steps > 1 else 'step'} in a call:\n\n"
+        + rates(rows, KINDS, vehicles="alike", steps=steps)
+        for steps in CALLS
+    ]
+    if len(distinct(rows, "threads")) > 1:
+        parts.append("Times faster with all threads than with one, 100 steps in a call:\n\n" + scaling(rows))
+    own = rates(rows, OWN_KINDS, vehicles="own", steps=CALLS[0])
+    parts.append("Million steps a second, each body a vehicle of its own, 100 steps in a call:\n\n" + own)
+    return "\n".join([*parts, noise(rows)])
+
+
+def rates(rows: list[Row], kinds: tuple[tuple[str, str], ...], **wanted: Any) -> str:
+    """Return sizes against kinds and threads."""
+    columns = list(product(kinds, distinct(rows, "threads")))
+    lines = []
+    for size in distinct(rows, "bodies"):
+        cells = [
+            find(rows, bodies=size, arithmetic=kind[0], precision=kind[1], threads=threads, **wanted)
+            for kind, threads in columns
+        ]
+        lines.append([f"{size:,}", *(millions(cell if is_real(cell) else None) for cell in cells)])
+    header = ["bodies", *(f"{' '.join(kind)}, {named(threads)}" for kind, threads in columns)]
+    return table(header, lines)
+
+
+def scaling(rows: list[Row]) -> str:
+    """Return what more threads bring."""
+    few, *_, many = distinct(rows, "threads")
+    lines = []
+    for size in distinct(rows, "bodies"):
+        wanted = {"bodies": size, "vehicles": "alike", "steps": CALLS[0]}
+        pairs = [
+            [
+                find(rows, threads=threads, arithmetic=kind[0], precision=kind[1], **wanted)
+                for threads in (few, many)
+            ]
+            for kind in KINDS
+        ]
+        cells = [
+            digits(one["best_ns"] / all_["best_ns"]) for one, all_ in pairs if one and is_real(all_) and all_
+        ]
+        if cells:
+            lines.append([f"{size:,}", *cells])
+    return table([f"{few} to {many} threads", *(" ".join(kind) for kind in KINDS)], lines)
+
+
+def is_real(row: Row | None) -> bool:
+    """Whether a row was measured with as many threads as it was meant for."""
+    return row is not None and row["threads"] == row["threads_used"]
+
+
+def named(threads: int) -> str:
+    """Return a number of threads in words."""
+    return "1 thread" if threads == 1 else f"{threads} threads"
+
+
+def headline(content: dict[str, Any]) -> str:
+    """Return the rates of a batch of the usual size."""
+    rows = content["rows"]
+    most = max(distinct(rows, "threads"))
+    wanted = {"bodies": SHOWN_SIZE, "threads": most, "vehicles": "alike", "steps": CALLS[0]}
+    rates = [
+        f"{arithmetic} {precision} {millions(find(rows, arithmetic=arithmetic, precision=precision, **wanted))}"
+        for arithmetic, precision in KINDS
+    ]
+    return f"million steps/s, {SHOWN_SIZE} bodies, {named(most)}: {', '.join(rates)}"
+
+
+SECTION = Section("batch", "Many bodies", METHOD, measure, tables, headline)

@@ -1,0 +1,116 @@
+"""The bodies that are measured: a BlueROV2 Heavy with all its terms, with some of them, and random likes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from one_body_rate import changed, neutral
+
+from dq_marine.engines.batch import Batch
+from dq_marine.scene import Scene, batch_of
+from dq_marine.vehicles import Vehicle, load_vehicle
+
+VEHICLE = "bluerov2_heavy"
+CURRENT = (0.3, 0.0, 0.0)
+STEP = 0.02
+SPREAD = 0.2
+"""Of the random vehicles' numbers, relative."""
+
+Array = NDArray[np.float64]
+
+
+def full_scene(vehicle: Vehicle | str = VEHICLE) -> Scene:
+    """Return the scene with everything: net weight, righting moment, damping, current."""
+    return Scene(vehicle, current=CURRENT, step=STEP)
+
+
+def wrenches(bodies: int) -> Array:
+    """Return a wrench of its own for each body, up to a tenth of the limits, shape (bodies, 6)."""
+    limits = load_vehicle(VEHICLE).wrench_limits
+    return np.asarray(0.1 * limits * np.random.default_rng(0).uniform(-1.0, 1.0, (bodies, 6)))
+
+
+def random_vehicles(count: int) -> list[Vehicle]:
+    """Return vehicles with the Heavy's terms and numbers of their own."""
+    rng = np.random.default_rng(0)
+    content = load_vehicle(VEHICLE).model_dump()
+
+    def scattered(numbers: object) -> list[float]:
+        values = np.array(numbers, dtype=float)
+        return np.asarray(values * rng.uniform(1.0 - SPREAD, 1.0 + SPREAD, values.shape)).tolist()
+
+    vehicles = []
+    for _ in range(count):
+        size = float(rng.uniform(1.0 - SPREAD, 1.0 + SPREAD))
+        body, water, damping = content["rigid_body"], content["buoyancy"], content["damping"]
+        vehicles.append(
+            Vehicle.model_validate(
+                content
+                | {
+                    "rigid_body": body
+                    | {"mass": size * body["mass"], "inertia": scattered(np.diag(body["inertia"]))},
+                    "buoyancy": water
+                    | {"volume": size * water["volume"], "center": scattered(water["center"])},
+                    "added_mass": scattered(np.diag(content["added_mass"])),
+                    "damping": {
+                        "linear": scattered(np.diag(damping["linear"])),
+                        "quadratic": scattered(damping["quadratic"]),
+                    },
+                }
+            )
+        )
+    return vehicles
+
+
+def driven(
+    scenes: Sequence[Scene], bodies: int, threads: int, arithmetic: str, precision: str = "float64"
+) -> Batch:
+    """Return bodies under way, each pushed by a wrench of its own."""
+    batch = batch_of(scenes, bodies, threads=threads, arithmetic=arithmetic, precision=precision)
+    batch.step(wrenches(bodies), steps=5)
+    return batch
+
+
+def check_all_went(batch: Batch) -> None:
+    """Raise RuntimeError if a step was refused, for a body that stands costs nothing."""
+    if batch.steps_refused:
+        raise RuntimeError(f"{batch.steps_refused} calls were refused: {list(batch.refusals.items())[:3]}")
+
+
+def terms_alone() -> dict[str, dict[str, Any]]:
+    """Return arguments of scenes with no term, with each alone, and with all."""
+    own = load_vehicle(VEHICLE)
+    bare = neutral(own)
+    linear = changed(bare, "damping", linear=own.damping.linear)
+    return {
+        "inertia alone": {"vehicle": bare},
+        "net weight": {"vehicle": changed(bare, "buoyancy", volume=own.buoyancy.volume)},
+        "righting moment": {"vehicle": changed(bare, "buoyancy", center=own.buoyancy.center)},
+        "current": {"vehicle": bare, "current": CURRENT},
+        "linear damping": {"vehicle": linear},
+        "linear and quadratic damping": {
+            "vehicle": changed(linear, "damping", quadratic=own.damping.quadratic)
+        },
+        "everything": {"vehicle": own, "current": CURRENT},
+    }
+
+
+def terms_added_up() -> dict[str, Scene]:
+    """Return scenes with one term more each, from none to all."""
+    own = load_vehicle(VEHICLE)
+    nothing = neutral(own)
+    heavy = changed(nothing, "buoyancy", volume=own.buoyancy.volume)
+    righted = changed(heavy, "buoyancy", center=own.buoyancy.center)
+    linear = changed(righted, "damping", linear=own.damping.linear)
+    quadratic = changed(linear, "damping", quadratic=own.damping.quadratic)
+    return {
+        "inertia alone": Scene(nothing, step=STEP),
+        "+ net weight": Scene(heavy, step=STEP),
+        "+ righting moment": Scene(righted, step=STEP),
+        "+ linear damping": Scene(linear, step=STEP),
+        "+ quadratic damping": Scene(quadratic, step=STEP),
+        "+ current": Scene(quadratic, current=CURRENT, step=STEP),
+    }

@@ -1,0 +1,99 @@
+"""The measured numbers on disk: written whole after each section, so that an interrupted run can go on."""
+
+from __future__ import annotations
+
+import json
+import os
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from suite import machine
+
+
+class OtherMachineError(Exception):
+    """A record holds figures of another machine or of other versions, which must not be mixed."""
+
+
+class Record:
+    """A JSON file of sections.
+
+    Attributes:
+        path: of the file.
+        content: of the file: `machine`, `versions`, and `sections` by name, each with `stamp` and `content`.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Read the file, or begin an empty record."""
+        self.path = path
+        self.content: dict[str, Any] = {"machine": {}, "versions": {}, "sections": {}}
+        if path.exists():
+            self.content = json.loads(path.read_text())
+
+    @property
+    def sections(self) -> dict[str, Any]:
+        """The sections measured, by name."""
+        return self.content["sections"]
+
+    def begin(self, *, fresh: bool) -> None:
+        """Make ready for figures of this machine and these versions.
+
+        Raises:
+            OtherMachineError: the record has figures of others, and is not to be begun afresh.
+        """
+        here, installed = machine.machine(), machine.versions()
+        differing = differences(self.content["machine"], here) + differences(
+            self.content["versions"], installed
+        )
+        if differing and self.sections:
+            if not fresh:
+                raise OtherMachineError(
+                    f"{self.path} was measured elsewhere: {'; '.join(differing)}. Give --fresh to begin it anew, or "
+                    "another --out"
+                )
+            self.sections.clear()
+        self.content["machine"] = here
+        self.content["versions"] = installed
+
+    def holds(self, name: str, stamp: dict[str, Any]) -> bool:
+        """Whether a section was measured with the same sources and settings."""
+        kept = self.sections.get(name)
+        same = ("sources", "quick", "threads")
+        return kept is not None and all(kept["stamp"][key] == stamp[key] for key in same)
+
+    def keep(self, name: str, stamp: dict[str, Any], content: dict[str, Any]) -> None:
+        """Add a section and write the file."""
+        self.sections[name] = {"stamp": stamp, "content": content}
+        write_whole(self.path, json.dumps(self.content, indent=1) + "\n")
+
+
+def stamp(*, quick: bool, threads: tuple[int, ...]) -> dict[str, Any]:
+    """Return what tells how and when a section is measured."""
+    return {
+        "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "commit": machine.commit(),
+        "sources": machine.source_fingerprint(),
+        "quick": quick,
+        "threads": list(threads),
+        "load_before": machine.load(),
+    }
+
+
+def differences(then: dict[str, Any], now: dict[str, Any]) -> list[str]:
+    """Return in what two descriptions differ; what one of them lacks counts as equal."""
+    return [
+        f"{name} {then[name]}, now {now[name]}"
+        for name in then
+        if then[name] is not None and now.get(name) is not None and then[name] != now[name]
+    ]
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a file so that it is there whole or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        beside.write_text(text)
+        os.replace(beside, path)
+    finally:
+        beside.unlink(missing_ok=True)

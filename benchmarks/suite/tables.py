@@ -1,0 +1,52 @@
+"""Rows of numbers as Markdown tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+Row = dict[str, Any]
+
+
+def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a table whose first column is words and the others numbers."""
+    lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+
+
+def find(rows: Iterable[Row], **wanted: Any) -> Row | None:
+    """Return the first row with the given entries."""
+    return next((row for row in rows if all(row.get(key) == value for key, value in wanted.items())), None)
+
+
+def distinct(rows: Iterable[Row], key: str) -> list[Any]:
+    """Return the values of an entry, each once, in order of appearance."""
+    return list(dict.fromkeys(row[key] for row in rows if key in row))
+
+
+def millions(row: Row | None, which: str = "best_ns") -> str:
+    """Return a row's rate in millions a second."""
+    return "" if row is None else digits(1e3 / row[which])
+
+
+def nanoseconds(row: Row | None, which: str = "best_ns") -> str:
+    """Return a row's time."""
+    return "" if row is None else digits(row[which])
+
+
+def digits(number: float) -> str:
+    """Return a number to three digits, larger ones whole."""
+    if abs(number) >= 100.0:
+        return f"{number:,.0f}"
+    return f"{number:.1f}" if abs(number) >= 10.0 else f"{number:.2f}"
+
+
+def noise(rows: Iterable[Row]) -> str:
+    """Return how far the medians of all rows are from the best."""
+    excess = sorted(row["median_ns"] / row["best_ns"] - 1.0 for row in rows if "median_ns" in row)
+    if not excess:
+        return ""
+    return (
+        f"Noise: the median sample was {excess[len(excess) // 2]:.0%} slower than the best in the middle one of "
+        f"{len(excess)} figures, {excess[-1]:.0%} in the worst.\n"
+    )
