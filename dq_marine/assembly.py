@@ -80,8 +80,8 @@ class Assembly:
         drift, rescue = SCHEMES[self.scheme]
         return Composition(
             method=self._method,
-            pose_forces=tuple(force.function for force in self._pose_forces),
-            velocity_forces=tuple(force.function for force in self._velocity_forces),
+            pose_forces=tuple(force.compiled_form for force in self._pose_forces),
+            velocity_forces=tuple(force.compiled_form for force in self._velocity_forces),
             kick=self.damping.kick,
             drift=drift,
             rescue=rescue,

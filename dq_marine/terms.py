@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.kernel.branching import branching_pose_force, branching_velocity_force
 from dq_marine.kernel.damping import DiagonalDamping, FullDamping
 from dq_marine.kernel.inertia import Inertia
 from dq_marine.kernel.kick import (
@@ -42,12 +43,23 @@ class ForceTerm(NamedTuple):
             its names: functions that it calls are imported by name, not through their module.
         parameters: nested tuples of floats, handed to the function.
         uses_velocity: whether it depends on the velocity.
+        branches: whether the function asks `if`, `and`, `or`, `not`, `min` or `max` of a number that is a body's own. A
+            batch then calls it for one body at a time, which is slower than lanes; `dq_marine.kernel.selection` has
+            what lanes can do instead.
     """
 
     name: str
     function: Callable[..., Spatial]
     parameters: Any
     uses_velocity: bool = False
+    branches: bool = False
+
+    @property
+    def compiled_form(self) -> Callable[..., Spatial]:
+        """The function as the step has it."""
+        if not self.branches:
+            return self.function
+        return (branching_velocity_force if self.uses_velocity else branching_pose_force)(self.function)
 
 
 def vector3(a: NDArray[Any]) -> Vector3:

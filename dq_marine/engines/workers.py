@@ -8,6 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from typing import Any
 
+from numba.core.errors import NumbaError
+
 from dq_marine.errors import InvalidInputError
 
 MOST_THREADS = 1024
@@ -52,7 +54,21 @@ class Workers:
         self._process = os.getpid()
 
     def run(self, function: Callable[..., Any], *arguments: Any) -> None:
-        """Call function(first, last, *arguments) for every thread's share of the blocks, and wait for all."""
+        """Call function(first, last, *arguments) for every thread's share of the blocks, and wait for all.
+
+        Raises:
+            InvalidInputError: a force cannot be compiled for lanes.
+        """
+        try:
+            self._run(function, *arguments)
+        except NumbaError as error:
+            raise InvalidInputError(
+                "the step cannot be compiled for many bodies at once. A force of your own that asks `if`, `and`, `or`, "
+                "`not`, `min` or `max` of a number needs ForceTerm(..., branches=True), or the functions of "
+                f"dq_marine.kernel.selection instead. Numba's words: {error}"
+            ) from error
+
+    def _run(self, function: Callable[..., Any], *arguments: Any) -> None:
         *others, own = self._shares
         submit = self._executor().submit if others else None
         waiting = [submit(function, *share, *arguments) for share in others] if submit else ()
