@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +13,10 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
 from dq_marine.kernel.extrapolated import ExtrapolatedTiming, make_extrapolated
+from dq_marine.kernel.kick import Kick
 from dq_marine.kernel.midpoint_drift import midpoint_drift, midpoint_rescue
 from dq_marine.kernel.paper_drift import paper_drift, paper_rescue
+from dq_marine.kernel.richardson import RichardsonTiming, make_richardson
 from dq_marine.kernel.step import Advance, Composition, StepParameters
 from dq_marine.kernel.strang import make_strang
 from dq_marine.terms import DampingTerm, ForceTerm, inertia_term, nested_parameters, vector3
@@ -24,6 +26,20 @@ SCHEMES = {"midpoint": (midpoint_drift, midpoint_rescue), "paper": (paper_drift,
 
 ORDERS = (2, *STAGES)
 """Orders that a method may have."""
+
+
+class Method(NamedTuple):
+    """How drifts and kicks follow each other.
+
+    Attributes:
+        make: (composition) -> advance.
+        kick: damping, as the method wants it.
+        timing: (step size [s]) -> what the method needs to know of it.
+    """
+
+    make: Callable[[Composition], Advance]
+    kick: Kick
+    timing: Callable[[float], Any]
 
 
 @dataclass(frozen=True)
@@ -79,10 +95,10 @@ class Assembly:
         """The functions of the step."""
         drift, rescue = SCHEMES[self.scheme]
         return Composition(
-            method=self._method,
+            method=self._method.make,
             pose_forces=tuple(force.compiled_form for force in self._pose_forces),
             velocity_forces=tuple(force.compiled_form for force in self._velocity_forces),
-            kick=self.damping.kick,
+            kick=self._method.kick,
             drift=drift,
             rescue=rescue,
             water=MOVING_WATER if self.current_ned.any() else STILL_WATER,
@@ -95,7 +111,7 @@ class Assembly:
             damping=self.damping.matrices,
             forces=(nested_parameters(self._pose_forces), nested_parameters(self._velocity_forces)),
             water=UniformCurrent(vector3(self.current_ned)) if self.current_ned.any() else (),
-            timing=self._timing(step),
+            timing=self._method.timing(step),
         )
 
     @property
@@ -107,15 +123,23 @@ class Assembly:
         return tuple(force for force in self.forces if force.uses_velocity)
 
     @property
-    def _method(self) -> Callable[[Composition], Advance]:
+    def _method(self) -> Method:
+        damping = self.damping
         if self.order == 2:
-            return make_strang
-        return make_extrapolated if self.dissipation else make_composed
-
-    def _timing(self, step: float) -> Any:
-        """Return what the method needs to know of a step size."""
-        if self.order == 2:
-            return self.damping.timing(step)
-        if self.dissipation:
-            return ExtrapolatedTiming(*(self.damping.timing(step / pieces) for pieces in (1, 2, 3)))
-        return ComposedTiming(tuple(step * stage for stage in STAGES[self.order]))
+            return Method(make_strang, damping.kick, damping.timing)
+        if not self.dissipation:
+            stages = STAGES[self.order]
+            return Method(
+                make_composed, damping.kick, lambda h: ComposedTiming(tuple(h * stage for stage in stages))
+            )
+        if self._velocity_forces:
+            return Method(
+                make_extrapolated,
+                damping.kick,
+                lambda h: ExtrapolatedTiming(*(damping.timing(h / pieces) for pieces in (1, 2, 3))),
+            )
+        return Method(
+            make_richardson,
+            damping.accurate_kick,
+            lambda h: RichardsonTiming(*(damping.timing(h / pieces) for pieces in (1, 2))),
+        )

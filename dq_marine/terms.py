@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -26,6 +27,7 @@ from dq_marine.kernel.kick import (
 )
 from dq_marine.kernel.matrix3 import Matrix3
 from dq_marine.kernel.restoring import NetWeight, RightingMoment, net_weight, righting_moment
+from dq_marine.kernel.rosenbrock import diagonal_rosenbrock_kick, full_rosenbrock_kick
 from dq_marine.kernel.spatial import Matrix6, Spatial
 from dq_marine.kernel.strang import StrangTiming
 from dq_marine.kernel.vector3 import Vector3
@@ -149,6 +151,13 @@ class DampingTerm(NamedTuple):
             return diagonal_quadratic_kick if self._is_diagonal else full_quadratic_kick
         return linear_kick
 
+    @property
+    def accurate_kick(self) -> Kick:
+        """The same for a method of fourth order."""
+        if not self.l_stable or not self.quadratic.any():
+            return self.kick
+        return diagonal_rosenbrock_kick if self._is_diagonal else full_rosenbrock_kick
+
     def timing(self, step: float) -> StrangTiming:
         """Return what Strang's method needs to know of a step size [s]."""
         half = 0.5 * step
@@ -179,11 +188,36 @@ class DampingTerm(NamedTuple):
         return self._linear_kick(duration) if self.linear.any() else UndampedKick(duration)
 
     def _linear_kick(self, h: float) -> LinearKick:
-        """Prepare (K2)-(K3) of `kernel.kick` for a constant D.
+        """Prepare the kick of a constant D: see `kernel.kick`.
 
-        With x = D M^-1 they read mu' = P mu + Q F, P = (1 + h x + (h x)^2/2)^-1 and Q = h P (1 + h x/2).
+        With x = h D M^-1, mu' = P mu + Q F, P = exp(-x) and Q = h (1 - P) x^-1: exact. From the Pade (3,4)
+        approximation p/q of a small part of x, Q then being h ((q - p)/x)/q, and doubled: P becomes P P and Q
+        becomes Q + P Q.
         """
-        hx = h * angular_first(self.linear) @ np.linalg.inv(angular_first(self.mass_matrix))
-        one = np.eye(6)
-        propagator = np.linalg.inv(one + hx + 0.5 * hx @ hx)
-        return LinearKick(matrix6(propagator), matrix6(h * propagator @ (one + 0.5 * hx)))
+        x = h * angular_first(self.linear) @ np.linalg.inv(angular_first(self.mass_matrix))
+        doublings = max(0, math.ceil(math.log2(np.abs(x).sum(axis=0).max() / LARGEST_PADE_ARGUMENT)))
+        x = x / 2**doublings
+        denominator = np.linalg.inv(matrix_polynomial(PADE_DENOMINATOR, x))
+        propagator = denominator @ matrix_polynomial(PADE_NUMERATOR, x)
+        forcing = h / 2**doublings * denominator @ matrix_polynomial(PADE_FORCING, x)
+        for _ in range(doublings):
+            forcing = forcing + propagator @ forcing
+            propagator = propagator @ propagator
+        return LinearKick(matrix6(propagator), matrix6(forcing))
+
+
+LARGEST_PADE_ARGUMENT = 0.05
+"""Of the matrix norm: the approximation's error is then below 1e-18."""
+
+PADE_NUMERATOR = (1.0, -3.0 / 7.0, 1.0 / 14.0, -1.0 / 210.0)
+PADE_DENOMINATOR = (1.0, 4.0 / 7.0, 1.0 / 7.0, 2.0 / 105.0, 1.0 / 840.0)
+PADE_FORCING = (1.0, 1.0 / 14.0, 1.0 / 42.0, 1.0 / 840.0)
+"""Coefficients of p and q with p(x)/q(x) = exp(-x) + O(x^8), and of (q - p)/x, from the constant on."""
+
+
+def matrix_polynomial(coefficients: tuple[float, ...], x: Array) -> Array:
+    """Return sum_k c_k x^k for a square matrix."""
+    total = np.zeros_like(x)
+    for coefficient in reversed(coefficients):
+        total = total @ x + coefficient * np.eye(len(x))
+    return total

@@ -154,7 +154,7 @@ class OneBody:
                 outcome = advance(parameters, self.state, force, self.time, min(int(steps / fraction), 64))
                 if outcome.status == ACCEPTED:
                     return self.step_size * fraction
-            except (OverflowError, ZeroDivisionError):
+            except (ArithmeticError, ValueError):
                 pass  # plain Python raises where compiled code goes on to a refused infinity
             fraction *= 0.5
         return None

@@ -2,9 +2,9 @@
 
 A scheme eliminates the translation and leaves one equation in three unknowns x, the rotation variable of the step,
 for the scaled momenta a = (h/2) mu_angular and b = (h/2) mu_linear. `DriftScheme` names its functions. `make_drift`
-makes the fast drift, plain Newton; `make_robust_drift` the one for steps that the fast one does not solve:
-continuation from rest, else the step split in up to `MAX_PIECES`. Newton's method with damped steps has no place
-here: it finds solutions, but not necessarily on the branch that starts at rest.
+makes the fast drift, Newton's method from a good guess; `make_robust_drift` the one for steps that the fast one does
+not solve: continuation from rest, else the step split in up to `MAX_PIECES`. Newton's method with damped steps has no
+place here: it finds solutions, but not necessarily on the branch that starts at rest.
 """
 
 from __future__ import annotations
@@ -28,17 +28,20 @@ from dq_marine.kernel.dual_quaternion import (
     pose_position,
     pose_renormalise,
 )
+from dq_marine.kernel.frames import momentum_bracket
 from dq_marine.kernel.inertia import Inertia, twist_from_momentum
 from dq_marine.kernel.matrix3 import Matrix3, has_negative_real_eigenvalue, invert, transform
 from dq_marine.kernel.quaternion import Quaternion, rotate, rotate_inverse
 from dq_marine.kernel.selection import by_precision, negation, select, some, spread
 from dq_marine.kernel.spatial import Spatial, spatial_scale
-from dq_marine.kernel.vector3 import Vector3, cross, dot, scale, subtract
+from dq_marine.kernel.vector3 import Vector3, add, clamp, cross, dot, scale, subtract
 
 MAX_ITERATIONS = 12
+CHORDS = 3  # corrections by the Jacobian at the guess before a new one is worth its cost
 SHRINKING = 0.01  # of the squared correction from one iteration to the next: a tenth of the one before
 NEGLIGIBLE_CORRECTION = 1e-20  # of the squared correction, in quarter angles
 NEGLIGIBLE_CORRECTION_SINGLE = 1e-10  # the same in single precision
+LARGEST_CHANGE = 0.1  # of half a step's angle, in its first half [rad]
 MAX_CONTINUATION_SOLVES = 64
 SMALLEST_CONTINUATION_STEP = 1.0 / 256.0
 MAX_PIECES = 64
@@ -46,7 +49,8 @@ MAX_PIECES = 64
 Drift: TypeAlias = Callable[
     [Inertia, float, DualQuaternion, Spatial], tuple[DualQuaternion, Spatial, DriftReport]
 ]
-Solve: TypeAlias = Callable[[Inertia, Vector3, Vector3, Vector3], tuple[Any, DriftReport]]
+Newton: TypeAlias = Callable[[Inertia, Vector3, Vector3, Vector3], tuple[Any, DriftReport]]
+Solve: TypeAlias = Callable[[Inertia, Vector3, Vector3], tuple[Any, DriftReport]]
 
 
 class DriftScheme(NamedTuple):
@@ -56,7 +60,7 @@ class DriftScheme(NamedTuple):
         equation: (inertia, x, a, b) -> a named tuple whose first field is x and which has `residual` and
             `relative_residual_squared`.
         jacobian: (inertia, equation) -> its 3x3 Jacobian.
-        guess: (step angle vector h omega) -> x to start from.
+        guess: (half the step's angle vector, (h/2) omega) -> x to start from.
         increment: (equation) -> the step's unit dual quaternion.
     """
 
@@ -66,10 +70,11 @@ class DriftScheme(NamedTuple):
     increment: Callable[[Any], DualQuaternion]
 
 
-def make_newton(scheme: DriftScheme) -> Solve:
+def make_newton(scheme: DriftScheme, chords: int = 1) -> Newton:
     """Return (inertia, guess, a, b) -> (equation, report): Newton's method.
 
-    A body is done when its residual is at round-off, when it has stopped falling below the accepted residual, or after
+    The first corrections, as many as `chords`, use the Jacobian at the guess; a good guess needs no other. A body is
+    done when its residual is at round-off, when it has stopped falling below the accepted residual, or after
     `MAX_ITERATIONS`; it then waits, unchanged, for those beside it.
     There may be several solutions whose Jacobians look alike; that the corrections shrink from the
     start (Deuflhard's natural monotonicity) tells that it did not wander off to another one than the guess's.
@@ -78,15 +83,15 @@ def make_newton(scheme: DriftScheme) -> Solve:
 
     def newton(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
         equation = equation_at(inertia, guess, a, b)
+        jacobian = jacobian_at(inertia, equation)
+        inverse = invert(jacobian)
+        regular = negation(has_negative_real_eigenvalue(jacobian))
         active = spread(True, a[0])
-        regular = spread(False, a[0])
         shrinking = spread(True, a[0])
         correction = spread(math.inf, a[0])
         iterations = 0
-        for _ in range(MAX_ITERATIONS):
-            jacobian = jacobian_at(inertia, equation)
-            regular = select(active, negation(has_negative_real_eigenvalue(jacobian)), regular)
-            step = transform(invert(jacobian), equation.residual)
+        for iteration in range(MAX_ITERATIONS):
+            step = transform(inverse, equation.residual)
             size = dot(step, step)
             negligible = by_precision(size, NEGLIGIBLE_CORRECTION, NEGLIGIBLE_CORRECTION_SINGLE)
             shrunk = (size <= SHRINKING * correction) | (size <= negligible)
@@ -100,24 +105,45 @@ def make_newton(scheme: DriftScheme) -> Solve:
             active = active & negation((after <= converged_squared(after)) | stagnates)
             if not some(active):
                 break
+            if iteration >= chords - 1:
+                jacobian = jacobian_at(inertia, equation)
+                inverse = invert(jacobian)
+                regular = select(active, negation(has_negative_real_eigenvalue(jacobian)), regular)
         on_rest_branch = regular & shrinking
         return equation, DriftReport(equation.relative_residual_squared, on_rest_branch, iterations, DIRECT)
 
     return newton
 
 
+def make_direct(scheme: DriftScheme) -> Solve:
+    """Return (inertia, a, b) -> (equation, report): Newton's method, started from the velocity in the step's middle.
+
+    In scaled momenta c = (a, b) Kirchhoff's equations carry c to c + ad*_(M^-1 c) c by then. The change of the angle
+    vector is clamped: beyond, it is no estimate.
+    """
+    newton, guess_of = make_newton(scheme, CHORDS), scheme.guess
+
+    def direct(inertia: Inertia, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
+        start = Spatial(a, b)
+        angle = twist_from_momentum(inertia, start)
+        change = twist_from_momentum(inertia, momentum_bracket(angle, start)).angular
+        return newton(inertia, guess_of(add(angle.angular, clamp(LARGEST_CHANGE, change))), a, b)
+
+    return direct
+
+
 def make_continuation(scheme: DriftScheme) -> Solve:
-    """Return (inertia, unused guess, a, b) -> (equation, report): follows the branch from rest.
+    """Return (inertia, a, b) -> (equation, report): follows the branch from rest.
 
     Solves for s a, s b with s from 0 to 1, each from the last solution stretched; a solve that fails or leaves the
     branch halves the step in s.
     """
-    newton = make_newton(scheme)
+    newton, guess_of = make_newton(scheme), scheme.guess
 
-    def continuation(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
+    def continuation(inertia: Inertia, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
         reached = 0.0
         stride = 0.25
-        start = scale(stride, guess)
+        start = scale(stride, guess_of(twist_from_momentum(inertia, Spatial(a, b)).angular))
         iterations = 0
         equation, report = newton(inertia, start, scale(stride, a), scale(stride, b))
         for _ in range(MAX_CONTINUATION_SOLVES):
@@ -159,14 +185,13 @@ def transport_momentum(
 
 def make_drift_by(scheme: DriftScheme, solve: Solve) -> Drift:
     """Return (inertia, h, pose, momentum) -> (pose, momentum, report): one step of free motion, solved by `solve`."""
-    guess_of, increment_of = scheme.guess, scheme.increment
+    increment_of = scheme.increment
 
     def drift(
         inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
     ) -> tuple[DualQuaternion, Spatial, DriftReport]:
         scaled = spatial_scale(0.5 * h, momentum)
-        guess = guess_of(scale(h, twist_from_momentum(inertia, momentum).angular))
-        equation, report = solve(inertia, guess, scaled.angular, scaled.linear)
+        equation, report = solve(inertia, scaled.angular, scaled.linear)
         increment = increment_of(equation)
         moved = pose_renormalise(dual_multiply(pose, increment))
         carried = transport_momentum(pose.real, moved.real, pose_position(increment), momentum)
@@ -200,8 +225,8 @@ def make_split_drift(drift: Drift) -> Drift:
 
 
 def make_drift(scheme: DriftScheme) -> Drift:
-    """Return the fast drift: plain Newton."""
-    return make_drift_by(scheme, make_newton(scheme))
+    """Return the fast drift: Newton from a good guess."""
+    return make_drift_by(scheme, make_direct(scheme))
 
 
 def make_robust_drift(scheme: DriftScheme) -> Drift:

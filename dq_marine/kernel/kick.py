@@ -8,8 +8,8 @@ at a predicted mid velocity chi_m,
     (M + h D + (h^2/2) D M^-1 D) dchi = h r + (h^2/2) D M^-1 r,   D = D(chi_m)                       (K3)
 
 which is the Pade (0,2) approximation of the exponential: second order, L-stable, and with the exact terminal
-velocity F = D(chi) chi as its fixed point. Where D is constant, (K2)-(K3) collapse to mu' = P mu + Q F with
-P and Q prepared once; where there is none, to mu' = mu + h F.
+velocity F = D(chi) chi as its fixed point. Where D is constant, the kick is mu' = P mu + Q F with P = exp(-h D M^-1)
+and its integral Q prepared once: exact. Where there is none, it is mu' = mu + h F.
 
 The implicit-node kick is the alternative of the trapezoidal Lagrange-d'Alembert principle: all forces at the node's own
 velocity,
@@ -86,7 +86,7 @@ def undamped_kick(
 def linear_kick(
     kick: LinearKick, damping: Any, inertia: Inertia, momentum: Spatial, wrench: Spatial
 ) -> Spatial:
-    """Return P mu + Q F: (K2)-(K3) with a constant D."""
+    """Return P mu + Q F."""
     return spatial_add(matrix6_transform(kick.propagator, momentum), matrix6_transform(kick.forcing, wrench))
 
 

@@ -126,8 +126,8 @@ def pose_increment(at: DriftEquation) -> DualQuaternion:
 
 
 def midpoint_guess(angle: Vector3) -> Vector3:
-    """Return t for a small step angle h omega: a quarter of it."""
-    return scale(0.25, angle)
+    """Return t for a small half step angle (h/2) omega: half of it."""
+    return scale(0.5, angle)
 
 
 MIDPOINT = DriftScheme(drift_equation, drift_jacobian, midpoint_guess, pose_increment)

@@ -99,8 +99,8 @@ def paper_jacobian(inertia: Inertia, at: PaperEquation) -> Matrix3:
 
 
 def paper_guess(angle: Vector3) -> Vector3:
-    """Return Phi for a small step angle h omega: half of it."""
-    return scale(0.5, angle)
+    """Return Phi for a small half step angle (h/2) omega: the same."""
+    return angle
 
 
 def paper_increment(at: PaperEquation) -> DualQuaternion:

@@ -169,3 +169,18 @@ def matrix6_solve(m: Matrix6, a: Spatial) -> Spatial:
     angular = transform(invert(schur), subtract(a.angular, transform(gain, a.linear)))
     linear = transform(linear_inverse, subtract(a.linear, transform(m.linear_angular, angular)))
     return Spatial(angular, linear)
+
+
+def matrix6_invert(m: Matrix6) -> Matrix6:
+    """Return the inverse of m by the same elimination: dearer than one solution, but the next ones are products."""
+    linear_inverse = invert(m.linear)
+    gain = matrix_multiply(m.angular_linear, linear_inverse)
+    back = matrix_multiply(linear_inverse, m.linear_angular)
+    angular = invert(matrix_subtract(m.angular, matrix_multiply(gain, m.linear_angular)))
+    linear_angular = matrix_scale(-1.0, matrix_multiply(back, angular))
+    return Matrix6(
+        angular,
+        matrix_scale(-1.0, matrix_multiply(angular, gain)),
+        linear_angular,
+        matrix_subtract(linear_inverse, matrix_multiply(linear_angular, gain)),
+    )

@@ -49,3 +49,12 @@ def multiply_elementwise(a: Vector3, b: Vector3) -> Vector3:
 def absolute(a: Vector3) -> Vector3:
     """Return (|a_i|)."""
     return (abs(a[0]), abs(a[1]), abs(a[2]))
+
+
+def clamp(limit: float, a: Vector3) -> Vector3:
+    """Return a with every component between -limit and limit."""
+    return (
+        max(-limit, min(limit, a[0])),
+        max(-limit, min(limit, a[1])),
+        max(-limit, min(limit, a[2])),
+    )
