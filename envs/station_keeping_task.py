@@ -9,10 +9,10 @@ import math
 from typing import Any, NamedTuple
 
 from dq_marine.kernel.body import Motion
+from dq_marine.kernel.euler import quaternion_from_euler
 from dq_marine.kernel.quaternion import (
     Quaternion,
     quaternion_conjugate,
-    quaternion_from_euler,
     quaternion_multiply,
     rotate,
     rotate_inverse,

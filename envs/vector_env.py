@@ -26,7 +26,13 @@ from dq_marine.envs.lane_memory import RESCUED, LaneMemory
 from dq_marine.envs.lane_singles import LaneSingles, made_singles
 from dq_marine.envs.marine_env import MarineEnv
 from dq_marine.envs.vector_infos import VectorInfos
-from dq_marine.envs.vector_options import CHOSEN_SLICES, checked_mask, checked_seeds, split_options
+from dq_marine.envs.vector_options import (
+    CHOSEN_SLICES,
+    checked_mask,
+    checked_mode,
+    checked_seeds,
+    split_options,
+)
 from dq_marine.envs.view import open_page, shape_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import Vehicle
@@ -37,6 +43,7 @@ if TYPE_CHECKING:
 
 Observations = NDArray[np.float32]
 Flags = NDArray[np.bool_]
+VehicleChoice = Vehicle | str | os.PathLike[str]
 StepResult = tuple[Observations, NDArray[np.float64], Flags, Flags, dict[str, Any]]
 
 RENEWALS = {
@@ -51,7 +58,6 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
 
     Environment i behaves like the single environment seeded with its seed: to the last bit with strict arithmetic in
     double precision. A task derives from it and names its single environment.
-
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 10}  # type: ignore[misc]
@@ -61,10 +67,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self,
         num_envs: int = 1,
         *,
-        vehicle: Vehicle
-        | str
-        | os.PathLike[str]
-        | Sequence[Vehicle | str | os.PathLike[str]] = "bluerov2_heavy",
+        vehicle: VehicleChoice | Sequence[VehicleChoice] = "bluerov2_heavy",
         max_episode_steps: int = 300,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         threads: int | None = None,
@@ -93,7 +96,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         """
         self.num_envs = positive_integer("num_envs", num_envs)
         self.max_episode_steps = positive_integer("max_episode_steps", max_episode_steps)
-        self.autoreset_mode = _checked_mode(autoreset_mode)
+        self.autoreset_mode = checked_mode(autoreset_mode)
         singles = made_singles(self.single_class, vehicle, self.num_envs, single_arguments)
         single = singles[0]
         self._lanes = LaneSingles(singles, self.num_envs, lanes_of(precision, arithmetic))
@@ -390,16 +393,6 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
     def _need_reset(self, what: str) -> None:
         if not self._begun:
             raise ResetNeeded(f"{what} was asked for before reset(); call reset() first")
-
-
-def _checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
-    """Return the mode of a member, its value or its name, in any case."""
-    plain = mode.value if isinstance(mode, AutoresetMode) else str(mode)
-    for member in AutoresetMode:
-        if plain.replace("_", "").lower() == member.value.lower():
-            return member
-    known = [member.value for member in AutoresetMode]
-    raise InvalidInputError(f"autoreset_mode = {mode!r} is unknown; give one of {known}")
 
 
 _NOT_CARRIED = ("_period", "_begin_compiled", "_workers", "_watch")

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from dq_marine.checks import finite_rows, unit_quaternion_rows
@@ -95,3 +96,17 @@ def _checked_rows(
     # The largest row stands for all in what a single environment checks: names, and whether there is a current.
     check({name: rows[int(np.abs(rows).max(axis=1).argmax())]})
     return rows
+
+
+def checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
+    """Return the mode of a member, its value or its name, in any case.
+
+    Raises:
+        InvalidInputError: there is no such mode.
+    """
+    plain = mode.value if isinstance(mode, AutoresetMode) else str(mode)
+    for member in AutoresetMode:
+        if plain.replace("_", "").lower() == member.value.lower():
+            return member
+    known = [member.value for member in AutoresetMode]
+    raise InvalidInputError(f"autoreset_mode = {mode!r} is unknown; give one of {known}")

@@ -1,10 +1,11 @@
 """Order 4 for scenes with velocity forces: extrapolation of Strang's method, with positive substeps only.
 
-A step of size h is taken once whole, once as two halves and once as three thirds. Strang's method with velocity forces
-has a local error e2 h^3 + e3 h^4 + O(h^5) (its kick is not symmetric), and n substeps divide e2 by n^2 and e3 by n^3. The weights w of the three results that sum to 1 and cancel both are 1/12, -4/3, 9/4. (Kicks are not merged between
-substeps: that would add a part of e2 h^3 that n substeps divide by n^3, and of e3 h^4 by n^4.) Momentum is combined by
-components; poses in the Lie algebra about the finest result, p = p3 exp(w1 log(p3* p1) + w2 log(p3* p2)), whose
-commutators are of O(h^6). Each result is L-stable, hence so is their combination.
+A step of size h is taken once whole, once as two halves and once as three thirds. Strang's method with velocity
+forces has a local error e2 h^3 + e3 h^4 + O(h^5) (its kick is not symmetric), and n substeps divide e2 by n^2 and e3
+by n^3. The weights w of the three results that sum to 1 and cancel both are 1/12, -4/3, 9/4. (Kicks are not merged
+between substeps: that would add a part of e2 h^3 that n substeps divide by n^3, and of e3 h^4 by n^4.) Momentum is
+combined by components; poses in the Lie algebra about the finest result, p = p3 exp(w1 log(p3* p1) + w2 log(p3* p2)),
+whose commutators are of O(h^6). Each result is L-stable, hence so is their combination.
 """
 
 from __future__ import annotations

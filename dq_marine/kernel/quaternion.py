@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TypeAlias
 
 from dq_marine.kernel.matrix3 import Matrix3
@@ -88,11 +87,3 @@ def rotation_matrix(q: Quaternion) -> Matrix3:
         2.0 * (yz + wx),
         1.0 - 2.0 * (xx + yy),
     )
-
-
-def quaternion_from_euler(roll: float, pitch: float, heading: float) -> Quaternion:
-    """Return the attitude of Fossen's Euler angles (zyx) [rad], body to world."""
-    about_x = (math.cos(0.5 * roll), math.sin(0.5 * roll), 0.0, 0.0)
-    about_y = (math.cos(0.5 * pitch), 0.0, math.sin(0.5 * pitch), 0.0)
-    about_z = (math.cos(0.5 * heading), 0.0, 0.0, math.sin(0.5 * heading))
-    return quaternion_multiply(about_z, quaternion_multiply(about_y, about_x))
