@@ -1,0 +1,169 @@
+"""The methods that are compared: this product's own and the rivals, compiled in the same way from the same physics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from dq_marine.assembly import Assembly
+from dq_marine.engines.one_body import OneBody
+from dq_marine.kernel.damping import DiagonalDamping, FullDamping
+from dq_marine.kernel.step import Advance, Composition, StepParameters
+from dq_marine.report.physics import Physics
+from dq_marine.rivals.decoupled_lie import make_decoupled_lie
+from dq_marine.rivals.drag import diagonal_drag, full_drag, linear_diagonal_drag, linear_full_drag
+from dq_marine.rivals.dynamics import StepSize
+from dq_marine.rivals.explicit_euler import make_explicit_euler
+from dq_marine.rivals.rk4_euler import make_rk4_euler
+from dq_marine.rivals.rk4_quaternion import make_rk4_quaternion
+from dq_marine.rivals.rkmk4 import make_rkmk4
+from dq_marine.rivals.semi_implicit_euler import make_semi_implicit_euler
+from dq_marine.terms import DampingTerm, ForceTerm
+
+Family: TypeAlias = Literal["DQVI", "Runge-Kutta", "Euler", "Lie group"]
+
+
+@dataclass(frozen=True)
+class Method:
+    """An integrator that advances one body.
+
+    Attributes:
+        name: in files and on the command line.
+        title: in tables and plots.
+        family: what it is akin to.
+        order: of convergence.
+        evaluations: of the forces, a step of a long call.
+        damped_evaluations: the same where there is damping or a force that depends on the velocity.
+        compose: (physics) -> its functions, and the numbers that go with them for a step size [s].
+        refuse: (physics) -> why it cannot do that, or ''.
+    """
+
+    name: str
+    title: str
+    family: Family
+    order: int
+    evaluations: int
+    damped_evaluations: int
+    compose: Callable[[Physics], tuple[Composition, Callable[[float], StepParameters]]]
+    refuse: Callable[[Physics], str]
+
+    def refusal(self, physics: Physics) -> str:
+        """Return why the method cannot do a physics, in a few words; '' if it can."""
+        return self.refuse(physics)
+
+    def body(self, physics: Physics, h: float) -> OneBody:
+        """Return a body that is stepped by the method, at rest at the origin.
+
+        Args:
+            physics: what acts on it.
+            h: step size [s].
+        """
+        composition, parameters_at = self.compose(physics)
+        return OneBody(composition, parameters_at, h)
+
+
+def compose_own(
+    scheme: str, order: int, physics: Physics
+) -> tuple[Composition, Callable[[float], StepParameters]]:
+    """Return the product's own method."""
+    assembly = physics.assembly(scheme=scheme, order=order)
+    return assembly.composition, assembly.parameters_at
+
+
+def compose_rival(
+    method: Callable[[Composition], Advance], physics: Physics
+) -> tuple[Composition, Callable[[float], StepParameters]]:
+    """Return a rival: the product's own forces, inertia and water, and the damping as one force more."""
+    assembly = explicit_assembly(physics)
+
+    def parameters_at(h: float) -> StepParameters:
+        return assembly.parameters_at(h)._replace(timing=StepSize(h))
+
+    return replace(assembly.composition, method=method), parameters_at
+
+
+def explicit_assembly(physics: Physics) -> Assembly:
+    """Return the physics with its damping as a force that depends on the velocity."""
+    undamped = replace(
+        physics,
+        forces=(*physics.forces, *drag_terms(physics)),
+        linear=np.zeros((6, 6)),
+        quadratic=np.zeros(6),
+    )
+    return undamped.assembly()
+
+
+def drag_terms(physics: Physics) -> tuple[ForceTerm, ...]:
+    """Return the damping as the cheapest force that has all of it; none without damping."""
+    matrices = DampingTerm(physics.linear, physics.quadratic, physics.mass_matrix, l_stable=False).matrices
+    grows = bool(physics.quadratic.any())
+    if isinstance(matrices, DiagonalDamping):
+        function: Callable[..., Any] = diagonal_drag if grows else linear_diagonal_drag
+    elif isinstance(matrices, FullDamping):
+        function = full_drag if grows else linear_full_drag
+    else:
+        return ()
+    return (ForceTerm("drag", function, matrices if grows else matrices.linear, uses_velocity=True),)
+
+
+def nothing(physics: Physics) -> str:
+    """Return '': no physics is refused."""
+    return ""
+
+
+def dissipation(physics: Physics) -> str:
+    """Return why a composition of steps with negative stages cannot do a physics."""
+    found = physics.assembly().dissipation
+    return f"its negative stages cannot undo {found}" if found else ""
+
+
+def own(
+    name: str,
+    title: str,
+    order: int,
+    evaluations: int,
+    damped_evaluations: int,
+    scheme: str = "midpoint",
+) -> Method:
+    """Return one of the product's own methods."""
+    refuse = dissipation if order > 4 else nothing
+    compose = partial(compose_own, scheme, order)
+    return Method(name, title, "DQVI", order, evaluations, damped_evaluations, compose, refuse)
+
+
+def rival(
+    name: str,
+    title: str,
+    family: Family,
+    order: int,
+    evaluations: int,
+    method: Callable[[Composition], Advance],
+    damped_evaluations: int | None = None,
+) -> Method:
+    """Return one of the rivals."""
+    damped = evaluations if damped_evaluations is None else damped_evaluations
+    compose = partial(compose_rival, method)
+    return Method(name, title, family, order, evaluations, damped, compose, nothing)
+
+
+METHODS = {
+    method.name: method
+    for method in (
+        own("dqvi_paper", "DQVI, the paper's scheme", 2, 1, 1, scheme="paper"),
+        own("dqvi2", "DQVI, order 2", 2, 1, 1),
+        own("dqvi4", "DQVI, order 4", 4, 5, 12),
+        own("dqvi6", "DQVI, order 6", 6, 9, 9),
+        own("dqvi8", "DQVI, order 8", 8, 17, 17),
+        rival("rk4_quaternion", "RK4, quaternion", "Runge-Kutta", 4, 4, make_rk4_quaternion),
+        rival("rk4_euler", "RK4, Euler angles", "Runge-Kutta", 4, 4, make_rk4_euler),
+        rival("semi_implicit_euler", "Semi-implicit Euler", "Euler", 1, 1, make_semi_implicit_euler),
+        rival("explicit_euler", "Explicit Euler", "Euler", 1, 1, make_explicit_euler),
+        rival("rkmk4", "RKMK4 on SE(3)", "Lie group", 4, 4, make_rkmk4),
+        rival("decoupled_lie", "Lie group, SO(3) x R3", "Lie group", 2, 1, make_decoupled_lie, 2),
+    )
+}
+"""The methods by name. With damping, DQVI of order 4 is extrapolation instead of composition."""

@@ -1,0 +1,102 @@
+"""Every method does every case that it does not refuse, and converges to the references at its order."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dq_marine.engines.packing import pack
+from dq_marine.kernel.spatial import from_fossen
+from dq_marine.kernel.step import ACCEPTED, make_advance
+from dq_marine.report.cases import CASES
+from dq_marine.report.end_state import end_of, errors
+from dq_marine.report.methods import METHODS, drag_terms
+from dq_marine.report.physics import Physics
+from dq_marine.report.references import reference
+
+COUNTS = {1: (100, 200, 400), 2: (20, 40, 80), 4: (8, 12, 18), 6: (5, 7, 9), 8: (3, 4, 5)}
+FINER = {("rk4_euler", "kirchhoff_bluerov2"): 8}
+"""How much finer where a pitch comes near 90 degrees."""
+
+
+def end_in_plain_python(method, case, count):
+    """Where a method says that a case ends."""
+    body = method.body(case.physics, case.duration / count)
+    case.place(body)
+    wrench = from_fossen(tuple(case.wrench.tolist()))
+    outcome = make_advance(body._composition)(body.parameters, body.state, wrench, 0.0, count)
+    assert outcome.status == ACCEPTED
+    assert outcome.completed == count
+    body._state = pack(outcome.state)
+    return end_of(body)
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("name", METHODS)
+def test_every_method_does_every_case_that_it_does_not_refuse(name, case):
+    stiff = case.startswith("damped_bluerov2_x")
+    method, case = METHODS[name], replace(CASES[case], duration=4e-7 if stiff else 4e-4)
+    if method.refusal(case.physics):
+        assert method.order > 4
+        assert not case.conservative
+        return
+    found = errors(end_in_plain_python(method, case, 4), reference(case).end)
+    assert max(found) < (3e-6 if method.order == 1 else 1e-8)
+
+
+@pytest.mark.parametrize("case", ["kirchhoff_bluerov2", "coupled_rexrov", "ship_restoring"])
+@pytest.mark.parametrize("name", METHODS)
+def test_methods_converge_to_the_reference_at_their_order(name, case):
+    method = METHODS[name]
+    counts = np.array(COUNTS[method.order]) * FINER.get((name, case), 1)
+    case = replace(CASES[case], duration=1.0)
+    end = reference(case).end
+    measured = np.array([errors(end_in_plain_python(method, case, count), end) for count in counts])
+    # Position, attitude and velocity together, each relative to its first: one alone may be exact by symmetry.
+    total = (measured / measured[0]).max(axis=1)
+    observed = np.polyfit(np.log(1.0 / counts), np.log(total), 1)[0]
+    assert observed > method.order - 0.35, measured
+
+
+def test_names_titles_and_families():
+    assert all(name == method.name for name, method in METHODS.items())
+    assert len({method.title for method in METHODS.values()}) == len(METHODS)
+    assert {method.family for method in METHODS.values()} == {"DQVI", "Runge-Kutta", "Euler", "Lie group"}
+
+
+@pytest.mark.parametrize("name", ["dqvi6", "dqvi8"])
+def test_negative_stages_are_refused_where_something_damps(name):
+    assert "damping" in METHODS[name].refusal(CASES["damped_bluerov2"].physics)
+    assert METHODS[name].refusal(CASES["ship_restoring"].physics) == ""
+
+
+def test_a_rival_runs_compiled_like_the_products_own():
+    case = CASES["kirchhoff_bluerov2"]
+    body = METHODS["rk4_quaternion"].body(case.physics, 0.01)
+    case.place(body)
+    body.step(case.wrench, 1000)
+    assert body.time == pytest.approx(case.duration)
+    assert errors(end_of(body), reference(case).end).attitude < 1e-6
+
+
+FULL = np.eye(6) + 0.1 * np.ones((6, 6))
+
+
+@pytest.mark.parametrize(
+    ("linear", "quadratic", "expected"),
+    [
+        (np.zeros((6, 6)), np.zeros(6), []),
+        (np.eye(6), np.zeros(6), ["linear_diagonal_drag"]),
+        (np.zeros((6, 6)), np.ones(6), ["diagonal_drag"]),
+        (FULL, np.zeros(6), ["linear_full_drag"]),
+        (FULL, np.ones(6), ["full_drag"]),
+    ],
+)
+def test_the_drag_is_the_cheapest_that_has_all_damping(linear, quadratic, expected):
+    terms = drag_terms(Physics(np.eye(6), linear=linear, quadratic=quadratic))
+    assert [term.function.__name__ for term in terms] == expected
+    twist = from_fossen((1.0, -2.0, 0.5, 0.3, -0.4, 2.0))
+    nu = np.array([1.0, -2.0, 0.5, 0.3, -0.4, 2.0])
+    for term in terms:
+        force = term.function(term.parameters, None, twist, 0.0)
+        assert np.allclose([*force.linear, *force.angular], -linear @ nu - quadratic * np.abs(nu) * nu)
