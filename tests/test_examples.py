@@ -19,14 +19,15 @@ def test_example(path, tmp_path):
     assert result.stdout
 
 
-@pytest.mark.parametrize("number", range(3))
-def test_readme_code(number, tmp_path):
-    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
-    assert len(blocks) == 3
-    program = blocks[number]
+BLOCKS = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+
+
+@pytest.mark.parametrize("program", BLOCKS, ids=lambda program: program.strip().splitlines()[-1][:40])
+def test_readme_code(program, tmp_path):
     if "my_rov.toml" in program:
         (tmp_path / "my_rov.toml").write_text((ROOT / "dq_marine/vehicles/bluerov2_heavy.toml").read_text())
-        program = "import gymnasium as gym, dq_marine\n" + program + "env.reset(seed=0)\n"
+        program += "env.reset(seed=0)\n"
+    program = "import gymnasium as gym, dq_marine\n" + program
     result = subprocess.run(
         [sys.executable, "-W", "error", "-c", program],
         capture_output=True,
