@@ -58,6 +58,9 @@ class MujocoRival:
         integrator: MuJoCo's name of it.
         bodies_per_model: a divisor of `bodies`; by default the fastest, and 1 for the usual one simulation a body.
         step: [s].
+
+    Attributes:
+        model: MuJoCo's, of `bodies_per_model` bodies.
     """
 
     def __init__(
@@ -81,7 +84,8 @@ class MujocoRival:
         self.bodies = bodies
         self.bodies_per_model = each
         self._vehicle = vehicle
-        self._batch = Batch(MjModel.from_xml_string(mjcf(vehicle, each, integrator, step)), models, threads)
+        self.model = MjModel.from_xml_string(mjcf(vehicle, each, integrator, step))
+        self._batch = Batch(self.model, models, threads)
         self._poses = self._batch.bind("qpos").reshape(models, each, 7)  # views, all three
         self._velocities = self._batch.bind("qvel").reshape(models, each, 6)
         self._forces = self._batch.bind("qfrc_applied").reshape(models, each, 6)
@@ -96,6 +100,11 @@ class MujocoRival:
     def velocities(self) -> Array:
         """Velocity of the centre of buoyancy, NED, and angular velocity, body [m/s, rad/s], shape (bodies, 6)."""
         return np.array(self._velocities).reshape(self.bodies, 6)
+
+    @property
+    def forces(self) -> Array:
+        """Generalised forces held: force in NED, moment about the centre of buoyancy in body, shape (bodies, 6)."""
+        return np.array(self._forces).reshape(self.bodies, 6)
 
     def place(self, poses: ArrayLike) -> None:
         """Put all bodies, at rest, at one pose or each at its own, as `poses` has them."""

@@ -7,8 +7,9 @@ from typing import Any
 
 from dq_marine.engines.batch import Batch
 from dq_marine.scene import Scene
-from suite.bodies import check_all_went, driven, full_scene, random_vehicles, wrenches
+from suite.bodies import check_all_went, driven, full_scene, wrenches
 from suite.plan import Plan, Section
+from suite.random_vehicles import scattered_vehicles
 from suite.tables import Row, digits, distinct, find, millions, noise, table
 from suite.timing import Case, compare, rounded
 
@@ -25,20 +26,20 @@ SHOWN_SIZE = 4096
 Key = tuple[str, int, str, str, int]
 
 METHOD = f"""\
-`Scene.batch` of BlueROV2 Heavies with everything that the scene can have: net weight, righting moment, linear and quadratic
-damping, a current, and a wrench of its own for each body. Million steps of a body in a second, with 100 steps in a call and
-with one; a call checks and copies the wrenches, which is part of the time. *strict* has the bits of the single body, *fast*
-fuses multiply-adds and reorders sums. Empty cells: fewer blocks of bodies than threads.
+`Scene.batch` of BlueROV2 Heavies with everything that the scene can have: net weight, righting moment, linear and
+quadratic damping, a current, and a wrench of its own for each body. Million steps of a body in a second, with 100 steps
+in a call and with one; a call checks and copies the wrenches, which is part of the time. *strict* has the bits of the
+single body, *fast* fuses multiply-adds and reorders sums. Empty cells: fewer blocks of bodies than threads.
 
-The last table is for `batch_of` with {DISTINCT_VEHICLES} random vehicles, dealt out over the bodies, whose numbers all differ
-and are loaded for each body.
+The last table is for `batch_of` with {DISTINCT_VEHICLES} random vehicles, dealt out over the bodies, whose numbers all
+differ and are loaded for each body.
 """
 
 
 def measure(plan: Plan) -> dict[str, Any]:
     """Return times of a body's step."""
     rows: list[Row] = []
-    fleet = [full_scene(vehicle) for vehicle in random_vehicles(DISTINCT_VEHICLES)]
+    fleet = [full_scene(vehicle) for vehicle in scattered_vehicles(DISTINCT_VEHICLES)]
     for size in plan.pick(SIZES, QUICK_SIZES):
         rows += rows_of_size(plan, size, fleet)
     return {"rows": rows}
@@ -57,7 +58,7 @@ def rows_of_size(plan: Plan, size: int, fleet: list[Scene]) -> list[Row]:
                 key = (vehicles, threads, arithmetic, precision, steps)
                 batches[key], cases[key] = batch, stepping(batch, steps)
     plan.tell(f"{size:,} bodies, all in turn")
-    timings = compare(cases, plan.rounds)
+    timings = compare(cases, plan.rounds, plan.progress)
     for batch in batches.values():
         check_all_went(batch)
         batch.close()
@@ -85,7 +86,8 @@ def tables(content: dict[str, Any]) -> str:
         for steps in CALLS
     ]
     if len(distinct(rows, "threads")) > 1:
-        parts.append("Times faster with all threads than with one, 100 steps in a call:\n\n" + scaling(rows))
+        most = named(max(distinct(rows, "threads")))
+        parts.append(f"Times faster with {most} than with one, 100 steps in a call:\n\n" + scaling(rows))
     own = rates(rows, OWN_KINDS, vehicles="own", steps=CALLS[0])
     parts.append("Million steps a second, each body a vehicle of its own, 100 steps in a call:\n\n" + own)
     return "\n".join([*parts, noise(rows)])
@@ -107,23 +109,26 @@ def rates(rows: list[Row], kinds: tuple[tuple[str, str], ...], **wanted: Any) ->
 
 def scaling(rows: list[Row]) -> str:
     """Return what more threads bring."""
-    few, *_, many = distinct(rows, "threads")
     lines = []
     for size in distinct(rows, "bodies"):
-        wanted = {"bodies": size, "vehicles": "alike", "steps": CALLS[0]}
-        pairs = [
-            [
-                find(rows, threads=threads, arithmetic=kind[0], precision=kind[1], **wanted)
-                for threads in (few, many)
-            ]
-            for kind in KINDS
-        ]
-        cells = [
-            digits(one["best_ns"] / all_["best_ns"]) for one, all_ in pairs if one and is_real(all_) and all_
-        ]
-        if cells:
+        cells = [gain(rows, size, kind) for kind in KINDS]
+        if any(cells):
             lines.append([f"{size:,}", *cells])
-    return table([f"{few} to {many} threads", *(" ".join(kind) for kind in KINDS)], lines)
+    return table(["bodies", *(" ".join(kind) for kind in KINDS)], lines)
+
+
+def gain(rows: list[Row], size: int, kind: tuple[str, str]) -> str:
+    """Return how many times faster the most threads are than one, nothing where there were not as many."""
+    wanted = {
+        "bodies": size,
+        "arithmetic": kind[0],
+        "precision": kind[1],
+        "vehicles": "alike",
+        "steps": CALLS[0],
+    }
+    threads = distinct(rows, "threads")
+    one, most = (find(rows, threads=count, **wanted) for count in (min(threads), max(threads)))
+    return digits(one["best_ns"] / most["best_ns"]) if one and most and is_real(most) else ""
 
 
 def is_real(row: Row | None) -> bool:
@@ -145,7 +150,7 @@ def headline(content: dict[str, Any]) -> str:
         f"{arithmetic} {precision} {millions(find(rows, arithmetic=arithmetic, precision=precision, **wanted))}"
         for arithmetic, precision in KINDS
     ]
-    return f"million steps/s, {SHOWN_SIZE} bodies, {named(most)}: {', '.join(rates)}"
+    return f"million steps/s, {SHOWN_SIZE:,} bodies, {named(most)}: {', '.join(rates)}"
 
 
 SECTION = Section("batch", "Many bodies", METHOD, measure, tables, headline)

@@ -1,4 +1,4 @@
-"""The bodies that are measured: a BlueROV2 Heavy with all its terms, with some of them, and random likes of it."""
+"""The bodies that are measured: a BlueROV2 Heavy with all its terms, and with some of them."""
 
 from __future__ import annotations
 
@@ -16,8 +16,6 @@ from dq_marine.vehicles import Vehicle, load_vehicle
 VEHICLE = "bluerov2_heavy"
 CURRENT = (0.3, 0.0, 0.0)
 STEP = 0.02
-SPREAD = 0.2
-"""Of the random vehicles' numbers, relative."""
 
 Array = NDArray[np.float64]
 
@@ -31,38 +29,6 @@ def wrenches(bodies: int) -> Array:
     """Return a wrench of its own for each body, up to a tenth of the limits, shape (bodies, 6)."""
     limits = load_vehicle(VEHICLE).wrench_limits
     return np.asarray(0.1 * limits * np.random.default_rng(0).uniform(-1.0, 1.0, (bodies, 6)))
-
-
-def random_vehicles(count: int) -> list[Vehicle]:
-    """Return vehicles with the Heavy's terms and numbers of their own."""
-    rng = np.random.default_rng(0)
-    content = load_vehicle(VEHICLE).model_dump()
-
-    def scattered(numbers: object) -> list[float]:
-        values = np.array(numbers, dtype=float)
-        return np.asarray(values * rng.uniform(1.0 - SPREAD, 1.0 + SPREAD, values.shape)).tolist()
-
-    vehicles = []
-    for _ in range(count):
-        size = float(rng.uniform(1.0 - SPREAD, 1.0 + SPREAD))
-        body, water, damping = content["rigid_body"], content["buoyancy"], content["damping"]
-        vehicles.append(
-            Vehicle.model_validate(
-                content
-                | {
-                    "rigid_body": body
-                    | {"mass": size * body["mass"], "inertia": scattered(np.diag(body["inertia"]))},
-                    "buoyancy": water
-                    | {"volume": size * water["volume"], "center": scattered(water["center"])},
-                    "added_mass": scattered(np.diag(content["added_mass"])),
-                    "damping": {
-                        "linear": scattered(np.diag(damping["linear"])),
-                        "quadratic": scattered(damping["quadratic"]),
-                    },
-                }
-            )
-        )
-    return vehicles
 
 
 def driven(

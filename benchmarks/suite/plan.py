@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, TypeVar
 
 T = TypeVar("T")
@@ -20,12 +21,16 @@ class Plan:
     Attributes:
         quick: small sizes and few samples.
         threads: numbers of threads to measure with, ascending: 1, and all that may be used.
+        scratch: folder for what a long section keeps, so that it can go on after a kill.
         tell: says what is being measured just now.
+        progress: says what part of it is done, from 0 to 1.
     """
 
     quick: bool
     threads: tuple[int, ...]
+    scratch: Path
     tell: Callable[[str], None]
+    progress: Callable[[float], None]
 
     @property
     def rounds(self) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -20,13 +21,14 @@ class Record:
 
     Attributes:
         path: of the file.
-        content: of the file: `machine`, `versions`, and `sections` by name, each with `stamp` and `content`.
+        content: of the file: `machine`, `versions`, `sections` by name, each with `stamp` and `content`, and why
+            others are `missing`, by name.
     """
 
     def __init__(self, path: Path) -> None:
         """Read the file, or begin an empty record."""
         self.path = path
-        self.content: dict[str, Any] = {"machine": {}, "versions": {}, "sections": {}}
+        self.content: dict[str, Any] = {"machine": {}, "versions": {}, "sections": {}, "missing": {}}
         if path.exists():
             self.content = json.loads(path.read_text())
 
@@ -34,6 +36,11 @@ class Record:
     def sections(self) -> dict[str, Any]:
         """The sections measured, by name."""
         return self.content["sections"]
+
+    @property
+    def missing(self) -> dict[str, str]:
+        """Why sections could not be measured at the last try, by name."""
+        return self.content["missing"]
 
     def begin(self, *, fresh: bool) -> None:
         """Make ready for figures of this machine and these versions.
@@ -52,8 +59,11 @@ class Record:
                     "another --out"
                 )
             self.sections.clear()
+            self.content["versions"] = {}
         self.content["machine"] = here
-        self.content["versions"] = installed
+        gone = {name for name, number in installed.items() if number is None}
+        kept = {name: number for name, number in self.content["versions"].items() if name in gone}
+        self.content["versions"] = installed | kept
 
     def holds(self, name: str, stamp: dict[str, Any]) -> bool:
         """Whether a section was measured with the same sources and settings."""
@@ -64,19 +74,40 @@ class Record:
     def keep(self, name: str, stamp: dict[str, Any], content: dict[str, Any]) -> None:
         """Add a section and write the file."""
         self.sections[name] = {"stamp": stamp, "content": content}
-        write_whole(self.path, json.dumps(self.content, indent=1) + "\n")
+        self.missing.pop(name, None)
+        self._write()
+
+    def miss(self, name: str, why: str) -> None:
+        """Note why a section cannot be measured here, and write the file; what there was of it stays."""
+        self.missing[name] = why
+        self._write()
+
+    def _write(self) -> None:
+        write_whole(self.path, as_json(self.content))
 
 
-def stamp(*, quick: bool, threads: tuple[int, ...]) -> dict[str, Any]:
-    """Return what tells how and when a section is measured."""
+def stamp(sources: str, *, quick: bool, threads: tuple[int, ...]) -> dict[str, Any]:
+    """Return what tells how and when a section is measured.
+
+    Args:
+        sources: hash over the sources as they were when the process began.
+        quick: whether sizes are small.
+        threads: numbers of threads to measure with.
+    """
     return {
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "commit": machine.commit(),
-        "sources": machine.source_fingerprint(),
+        "sources": sources,
         "quick": quick,
         "threads": list(threads),
         "load_before": machine.load(),
     }
+
+
+def as_json(content: Any) -> str:
+    """Return indented JSON, in which a list of plain values is one line."""
+    text = json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+    return re.sub(r"\[[^\[\]{}]*\]", lambda found: re.sub(r"\s*\n\s*", " ", found[0]), text)
 
 
 def differences(then: dict[str, Any], now: dict[str, Any]) -> list[str]:

@@ -16,7 +16,18 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 def find(rows: Iterable[Row], **wanted: Any) -> Row | None:
     """Return the first row with the given entries."""
-    return next((row for row in rows if all(row.get(key) == value for key, value in wanted.items())), None)
+    try:
+        return found(rows, **wanted)
+    except LookupError:
+        return None
+
+
+def found(rows: Iterable[Row], **wanted: Any) -> Row:
+    """Return the first row with the given entries, which is there."""
+    for row in rows:
+        if all(row.get(key) == value for key, value in wanted.items()):
+            return row
+    raise LookupError(f"no row has {wanted}")
 
 
 def distinct(rows: Iterable[Row], key: str) -> list[Any]:
@@ -42,11 +53,14 @@ def digits(number: float) -> str:
 
 
 def noise(rows: Iterable[Row]) -> str:
-    """Return how far the medians of all rows are from the best."""
+    """Return how far the medians of all rows are from the best, and whether they had a core for themselves."""
+    rows = list(rows)
     excess = sorted(row["median_ns"] / row["best_ns"] - 1.0 for row in rows if "median_ns" in row)
     if not excess:
         return ""
+    cores = [row["cores"] for row in rows if "cores" in row and row.get("threads", 1) == 1]
+    least = f" A single thread had {min(cores):.0%} of a core or more." if cores else ""
     return (
         f"Noise: the median sample was {excess[len(excess) // 2]:.0%} slower than the best in the middle one of "
-        f"{len(excess)} figures, {excess[-1]:.0%} in the worst.\n"
+        f"{len(excess)} figures, {excess[-1]:.0%} in the worst.{least}\n"
     )

@@ -18,10 +18,10 @@ STEPS = 100
 ARITHMETICS = ("strict", "fast")
 
 METHOD = f"""\
-`Scene.batch` of {BODIES:,} BlueROV2 Heavies on one thread in float64, {STEPS} steps in a call, coasting without a wrench from
-the same random velocities in every call: inertia alone, then one term more in each row. Nanoseconds a step of a body, and
-what the row's term adds to the row above. A negative number is no error: a term can make a motion slower, so that steps take
-fewer iterations.
+`Scene.batch` of {BODIES:,} BlueROV2 Heavies on one thread in float64, {STEPS} steps in a call, coasting without a
+wrench from the same random velocities in every call: inertia alone, then one term more in each row. Nanoseconds a step
+of a body, and what the row's term adds to the row above. A negative number is no error: a term can make a motion
+slower, so that steps take fewer iterations.
 """
 
 
@@ -39,7 +39,7 @@ def measure(plan: Plan) -> dict[str, Any]:
             batches[name, arithmetic] = batch
             cases[name, arithmetic] = coasting(batch)
     plan.tell("all in turn")
-    timings = compare(cases, plan.rounds)
+    timings = compare(cases, plan.rounds, plan.progress)
     for batch in batches.values():
         check_all_went(batch)
     return {

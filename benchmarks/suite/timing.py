@@ -90,14 +90,21 @@ class Case:
         return total
 
 
-def compare(cases: Mapping[Key, Case], rounds: int) -> dict[Key, Timing]:
-    """Return timings of cases measured in turn: A B C A B C ..., so that drifts of the machine meet all alike."""
+def compare(cases: Mapping[Key, Case], rounds: int, progress: Callable[[float], None]) -> dict[Key, Timing]:
+    """Return timings of cases measured in turn: A B C A B C ..., so that drifts of the machine meet all alike.
+
+    Args:
+        cases: by name.
+        rounds: samples of each case.
+        progress: is told, between rounds, what part is done.
+    """
     for case in cases.values():
         case.prepare()
     samples: dict[Key, list[float]] = {key: [] for key in cases}
     wall, cores = dict.fromkeys(cases, 0.0), dict.fromkeys(cases, 0.0)
     with no_garbage_collection():
-        for _ in range(rounds):
+        for done in range(rounds):
+            progress((done + 1) / (rounds + 1))  # warming up took about as long as a round
             for key, case in cases.items():
                 began, used = time.perf_counter(), time.process_time()
                 samples[key].append(case.sample())

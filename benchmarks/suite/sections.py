@@ -1,0 +1,22 @@
+"""All sections, in the order in which they are measured and stand on the page."""
+
+from __future__ import annotations
+
+from suite import (
+    batch,
+    compile_times,
+    endurance,
+    environments,
+    memory,
+    one_body,
+    ppo,
+    rival,
+    terms,
+)
+from suite.plan import Section
+
+SECTIONS: dict[str, Section] = {
+    module.SECTION.name: module.SECTION
+    for module in (one_body, terms, batch, environments, rival, ppo, compile_times, memory, endurance)
+}
+"""By name."""
