@@ -77,7 +77,8 @@ def finite_number(name: str, value: Any, *, above: float | None = None) -> float
 def finite_rows(name: str, value: ArrayLike, rows: int, size: int) -> NDArray[np.float64]:
     """Return `value`, one row for all or one for each, as a float64 array of shape (rows, size).
 
-    It is returned as it is, not copied, if it is such an array already.
+    It is returned as it is, not copied, if it is such an array already, and can be written to: compiled code takes a
+    read-only array for one of another type.
 
     Raises:
         InvalidInputError: it is not numeric, of another shape, or has a NaN or an infinity.
@@ -88,6 +89,8 @@ def finite_rows(name: str, value: ArrayLike, rows: int, size: int) -> NDArray[np
         raise InvalidInputError(f"{name} is not numeric; give numbers of shape ({rows}, {size})") from error
     if array.shape == (size,):
         array = np.tile(array, (rows, 1))
+    if not array.flags.writeable:
+        array = array.copy()
     if array.shape != (rows, size):
         raise InvalidInputError(f"{name} has shape {array.shape}; give shape ({rows}, {size}) or ({size},)")
     # The sum is finite unless a component is not, or numbers near the largest add up beyond it: look closer then.

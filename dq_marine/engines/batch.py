@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from dq_marine.checks import finite_rows, positive_integer, unit_quaternion_rows
 from dq_marine.engines.lane_packing import empty_blocks, pack_blocks, pack_shared, unpack_blocks
 from dq_marine.engines.lanes import compiled_lane_advance, differing_fields, lane_layout, lanes_of
-from dq_marine.engines.one_body import AT_REST, REFUSALS
+from dq_marine.engines.one_body import AT_REST, REFUSALS, check_momentum
 from dq_marine.engines.packing import pack, unpack_columns
 from dq_marine.engines.workers import Workers
 from dq_marine.errors import InvalidInputError
@@ -112,10 +112,13 @@ class Batch:
         position = finite_rows("position_ned", position_ned, self.size, 3)
         attitude = unit_quaternion_rows("quaternion_body_to_ned", quaternion_body_to_ned, self.size)
         velocity = finite_rows("velocity_body", velocity_body, self.size, 6)
-        state = self._place(
-            self._parameters, tuple(position.T), tuple(attitude.T), from_fossen(tuple(velocity.T))
-        )
-        self._set_rows(np.stack([np.broadcast_to(c, self.size) for c in _components(state)], axis=1))
+        with np.errstate(over="ignore", invalid="ignore"):
+            state = self._place(
+                self._parameters, tuple(position.T), tuple(attitude.T), from_fossen(tuple(velocity.T))
+            )
+        rows = np.stack([np.broadcast_to(c, self.size) for c in _components(state)], axis=1)
+        check_momentum(rows)
+        self._set_rows(rows)
         self.time = 0.0
 
     def step(self, wrench_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), steps: int = 1) -> None:
@@ -142,8 +145,9 @@ class Batch:
             self.time,
             count,
         )
-        self.steps_rescued += int(self._outcome(RESCUED).sum())
-        self.steps_refused += int(np.count_nonzero(self._outcome(STATUS)))
+        accepted = self._outcome(STATUS) == ACCEPTED
+        self.steps_rescued += int(self._outcome(RESCUED).sum(where=accepted))
+        self.steps_refused += self.size - int(np.count_nonzero(accepted))
         self.time += count * self.step_size
 
     @property

@@ -12,7 +12,7 @@ import pkgutil
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from types import FunctionType, ModuleType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 import numba
@@ -61,6 +61,16 @@ def constants_of(function: Callable[..., Any]) -> str:
     """Return the numbers, texts and arrays among a function's outside values, to tell it from its likes."""
     values = [value for value in outside_values(function) if isinstance(value, CONSTANT_TYPES)]
     return repr([value.tolist() if isinstance(value, np.ndarray) else value for value in values])
+
+
+def code_of(function: Callable[..., Any]) -> str:
+    """Return what tells a function from others of its name in its file: its instructions and their constants."""
+
+    def parts(code: CodeType) -> Any:
+        constants = [parts(value) if isinstance(value, CodeType) else repr(value) for value in code.co_consts]
+        return code.co_code.hex(), code.co_names, code.co_varnames, constants
+
+    return repr(parts(function.__code__))
 
 
 def text_of(function: Callable[..., Any]) -> bytes:
@@ -192,7 +202,7 @@ def compile_function(
     compiled = numba.njit(error_model="numpy", nogil=True)(function)
     if _writable(cache_directory()):
         parts: list[Callable[..., Any]] = [function, *used]
-        key = "|".join([name_of(function), layout, *map(constants_of, parts)])
+        key = "|".join([name_of(function), layout, *map(constants_of, parts), *map(code_of, parts)])
         compiled._cache = _CompositionCache(function, key, source_fingerprint(parts))
     return compiled
 

@@ -16,13 +16,21 @@ from numba.extending import lower_builtin
 
 from dq_marine.engines.lane_type import Lanes, as_lanes, extract, is_scalar
 
+NUMBERS = (types.Float, types.Integer)
+CONDITIONS = (types.Boolean,)
+
 Emit = Callable[[Any, Lanes, Any, Any], Any]
 
 
-def fit(args: tuple[types.Type, ...]) -> bool:
-    """Whether operands are lanes of one type, and scalars."""
+def fit(args: tuple[types.Type, ...], of: tuple[type[types.Type], ...]) -> bool:
+    """Whether operands are lanes of one type, of one of some kinds of numbers, and scalars that these can hold."""
     lanes = {kind for kind in args if isinstance(kind, Lanes)}
-    return len(lanes) == 1 and all(kind in lanes or is_scalar(kind) for kind in args)
+    if len(lanes) != 1:
+        return False
+    (common_type,) = lanes
+    return isinstance(common_type.dtype, of) and all(
+        kind in lanes or (is_scalar(kind) and common_type.holds(kind)) for kind in args
+    )
 
 
 def common(args: tuple[types.Type, ...]) -> Lanes:
@@ -30,7 +38,13 @@ def common(args: tuple[types.Type, ...]) -> Lanes:
     return next(kind for kind in args if isinstance(kind, Lanes))
 
 
-def teach(function: Any, arity: int, result: Callable[[Lanes], Lanes], emit: Callable[..., Any]) -> None:
+def teach(
+    function: Any,
+    arity: int,
+    result: Callable[[Lanes], Lanes],
+    emit: Callable[..., Any],
+    of: tuple[type[types.Type], ...] = (types.Float,),
+) -> None:
     """Let Numba type and lower a function of lanes (and scalars).
 
     Args:
@@ -38,13 +52,14 @@ def teach(function: Any, arity: int, result: Callable[[Lanes], Lanes], emit: Cal
         arity: number of operands.
         result: from the operands' lanes type to the result's.
         emit: (context, builder, operands' type, *values) -> LLVM value.
+        of: the kinds of numbers that it is for.
     """
 
     class LaneTemplate(AbstractTemplate):
         key = function
 
         def generic(self, args: Any, kws: Any) -> Any:
-            if kws or len(args) != arity or not fit(args):
+            if kws or len(args) != arity or not fit(args, of):
                 return None
             return signature(result(common(args)), *args)
 
@@ -158,7 +173,7 @@ for _operators, _of_floats, _of_integers in (
     ((operator.mul, operator.imul), "fmul", "mul"),
 ):
     for _operator in _operators:
-        teach(_operator, 2, same, _arithmetic(_of_floats, _of_integers))
+        teach(_operator, 2, same, _arithmetic(_of_floats, _of_integers), NUMBERS)
 for _operator in (operator.truediv, operator.itruediv):
     teach(_operator, 2, same, _divide)
 teach(operator.neg, 1, same, _negate)
@@ -170,11 +185,11 @@ for _operator, _relation in (
     (operator.eq, "=="),
     (operator.ne, "!="),
 ):
-    teach(_operator, 2, condition, _compare(_relation))
+    teach(_operator, 2, condition, _compare(_relation), NUMBERS)
 for _operator, _name in ((operator.and_, "and_"), (operator.or_, "or_"), (operator.xor, "xor")):
-    teach(_operator, 2, same, _bitwise(_name))
-teach(max, 2, same, _larger)
-teach(min, 2, same, _smaller)
+    teach(_operator, 2, same, _bitwise(_name), CONDITIONS)
+teach(max, 2, same, _larger, NUMBERS)
+teach(min, 2, same, _smaller, NUMBERS)
 teach(abs, 1, same, _intrinsic("fabs"))
 teach(math.sqrt, 1, same, _intrinsic("sqrt"))
 for _function in (math.exp, math.log, math.sin, math.cos, math.tan):

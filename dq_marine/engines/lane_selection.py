@@ -8,6 +8,7 @@ from typing import Any
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
+from numba.core.errors import TypingError
 from numba.core.typing import signature
 from numba.extending import intrinsic, overload
 
@@ -43,7 +44,16 @@ def selected_type(mask: Lanes, chosen: types.Type, otherwise: types.Type) -> typ
         named = getattr(chosen, "instance_class", None)
         return types.BaseTuple.from_types(tuple(selected_type(mask, a, b) for a, b in pairs), named)
     lanes = find_lanes(chosen, otherwise)
-    return lanes if lanes is not None else mask.like(chosen)
+    if lanes is None:
+        lanes = mask.like(chosen)
+        if not lanes.holds(otherwise):
+            lanes = mask.like(otherwise)
+    for part in (chosen, otherwise):
+        if part != lanes and (isinstance(part, Lanes) or not lanes.holds(part)):
+            raise TypingError(
+                f"{chosen} and {otherwise} are not of one kind; select between numbers that are"
+            )
+    return lanes
 
 
 @intrinsic
@@ -211,6 +221,8 @@ def _select(condition: Any, chosen: Any, otherwise: Any) -> Any:
 
 @provide(selection.negation)
 def _negation(condition: Any) -> Any:
+    if isinstance(condition, Lanes) and not isinstance(condition.dtype, types.Boolean):
+        return None
     if isinstance(condition, Lanes):
         return lambda condition: invert_mask(condition)
     return lambda condition: not condition

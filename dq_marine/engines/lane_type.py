@@ -45,6 +45,13 @@ class Lanes(types.Type):
             return self.of(types.boolean)
         return self.of(types.int64 if isinstance(scalar, types.Integer) else self.precision)
 
+    def holds(self, scalar: types.Type) -> bool:
+        """Whether a scalar of the given type can be put into the lanes without changing its meaning."""
+        if isinstance(self.dtype, types.Float):
+            return True
+        kind = types.Integer if isinstance(self.dtype, types.Integer) else types.Boolean
+        return isinstance(scalar, kind)
+
     @property
     def vector(self) -> ir.VectorType:
         """The LLVM type."""

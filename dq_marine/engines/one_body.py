@@ -102,7 +102,9 @@ class OneBody:
         position = finite_array("position_ned", position_ned, 3)
         q = unit_quaternion("quaternion_body_to_ned", quaternion_body_to_ned)
         velocity = finite_array("velocity_body", velocity_body, 6)
-        self._state = pack(place_body(self._composition, self.parameters, position, q, velocity))
+        state = pack(place_body(self._composition, self.parameters, position, q, velocity))
+        check_momentum(state)
+        self._state = state
         self.time = 0.0
 
     def step(self, wrench_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), steps: int = 1) -> None:
@@ -216,6 +218,16 @@ class OneBody:
             )
         self.time = float(numbers[0])
         self._state = numbers[1:].copy()
+
+
+def check_momentum(states: NDArray[np.float64]) -> None:
+    """Refuse packed states, one or one per row, that are not finite although position and velocity are.
+
+    Raises:
+        InvalidInputError: some number is infinite or NaN.
+    """
+    if not np.isfinite(states).all():
+        raise InvalidInputError("velocity_body is so large that the momentum is infinite; give a smaller one")
 
 
 def place_body(

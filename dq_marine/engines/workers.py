@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
 from numba.core.errors import NumbaError
 
 from dq_marine.errors import InvalidInputError
@@ -33,11 +34,15 @@ def checked_threads(threads: int | None, blocks: int) -> int:
     """
     if threads is None:
         return max(1, min(usable_cores(), blocks // BLOCKS_WORTH_A_THREAD))
-    if isinstance(threads, bool) or not isinstance(threads, int) or not 1 <= threads <= MOST_THREADS:
+    if (
+        isinstance(threads, bool)
+        or not isinstance(threads, int | np.integer)
+        or not 1 <= threads <= MOST_THREADS
+    ):
         raise InvalidInputError(
             f"threads = {threads!r}; give None or a whole number from 1 to {MOST_THREADS}"
         )
-    return min(threads, blocks)
+    return min(int(threads), blocks)
 
 
 class Workers:

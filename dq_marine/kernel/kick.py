@@ -30,7 +30,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.kernel.damping import DIAGONAL, FULL, DampingAlgebra
 from dq_marine.kernel.inertia import Inertia, momentum_from_twist, twist_from_momentum
-from dq_marine.kernel.selection import select, some, spread
+from dq_marine.kernel.selection import by_precision, select, some, spread
 from dq_marine.kernel.spatial import (
     Matrix6,
     Spatial,
@@ -46,6 +46,7 @@ from dq_marine.kernel.spatial import (
 
 MAX_NODE_ITERATIONS = 30
 NODE_TOLERANCE = 1e-28  # of the squared velocity: a change at round-off
+NODE_TOLERANCE_SINGLE = 1e-12  # the same in single precision
 
 Kick: TypeAlias = Callable[[Any, Any, Inertia, Spatial, Spatial], Spatial]
 
@@ -132,13 +133,14 @@ def make_node_kick(algebra: DampingAlgebra) -> Kick:
         target = spatial_add_scaled(momentum, h, wrench)
         twist = twist_from_momentum(inertia, momentum)
         active = spread(True, momentum.linear[0])
+        tolerance = by_precision(momentum.linear[0], NODE_TOLERANCE, NODE_TOLERANCE_SINGLE)
         for _ in range(MAX_NODE_ITERATIONS):
             drag = damping_apply(damping_at(damping, twist), twist)
             held = spatial_add_scaled(momentum_from_twist(inertia, twist), h, drag)
             slope = damping_add_scaled(inertia.matrix, h, damping_slope(damping, twist))
             change = matrix6_solve(slope, spatial_subtract(target, held))
             twist = select(active, spatial_add(twist, change), twist)
-            active = active & (spatial_dot(change, change) > NODE_TOLERANCE * spatial_dot(twist, twist))
+            active = active & (spatial_dot(change, change) > tolerance * spatial_dot(twist, twist))
             if not some(active):
                 break
         drag = damping_apply(damping_at(damping, twist), twist)

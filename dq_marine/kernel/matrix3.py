@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from dq_marine.kernel.selection import every, negation
+from dq_marine.kernel.selection import by_precision, every, negation
 from dq_marine.kernel.vector3 import Vector3
 
 Matrix3: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
@@ -13,6 +13,9 @@ Matrix3: TypeAlias = tuple[float, float, float, float, float, float, float, floa
 
 DOUBLE_ROOT = 1e-10
 """Of a cubic's terms: below this its minimum counts as zero."""
+
+DOUBLE_ROOT_SINGLE = 1e-5
+"""`DOUBLE_ROOT` where numbers have single precision."""
 
 
 def transform(m: Matrix3, a: Vector3) -> Vector3:
@@ -147,8 +150,9 @@ def has_negative_real_eigenvalue(a: Matrix3) -> bool:
     discriminant = c2 * c2 - 3.0 * c1
     lowest = (math.sqrt(max(discriminant, 0.0)) - c2) / 3.0
     rises = (discriminant <= 0.0) | (lowest <= 0.0)  # f has no minimum on mu > 0
+    double_root = by_precision(c0, DOUBLE_ROOT, DOUBLE_ROOT_SINGLE)
     size = ((lowest + abs(c2)) * lowest + abs(c1)) * lowest + c0
-    positive_there = ((lowest + c2) * lowest + c1) * lowest + c0 > DOUBLE_ROOT * size
+    positive_there = ((lowest + c2) * lowest + c1) * lowest + c0 > double_root * size
     return negation((c0 > 0.0) & (rises | positive_there))
 
 

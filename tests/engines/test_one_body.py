@@ -95,6 +95,7 @@ def test_scenes_travel_and_steppers_say_why_they_do_not():
         (lambda b: b.step(steps=1.5), "steps = 1.5"),
         (lambda b: b.reset(quaternion_body_to_ned=(2.0, 0.0, 0.0, 0.0)), "length 2"),
         (lambda b: b.reset(position_ned=(np.nan, 0.0, 0.0)), "position_ned"),
+        (lambda b: b.reset(velocity_body=(1e308,) * 6), "momentum is infinite"),
         (lambda b: b.set_state(np.zeros(15)), "unit quaternion"),
         (lambda b: b.set_state(np.zeros(3)), "shape"),
     ],
