@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from dq_marine.kernel.selection import by_precision
+from dq_marine.kernel.selection import by_precision, smallest_normal
+from dq_marine.kernel.vector3 import Vector3, dot
 
 CONVERGED_RESIDUAL = 1e-14
 """Relative residual at which the solver is content: round-off."""
@@ -17,6 +18,13 @@ CONVERGED_RESIDUAL_SINGLE = 5e-6
 
 ACCEPTED_RESIDUAL_SINGLE = 1e-4
 """`ACCEPTED_RESIDUAL` where numbers have single precision."""
+
+CANCELLED_PART = 1e-5
+"""Of the product of translation and momentum that counts as size of their cross product: where the two are parallel,
+what is left of it is round-off, which no solver brings below `ACCEPTED_RESIDUAL` of itself."""
+
+CANCELLED_PART_SINGLE = 1e-2
+"""`CANCELLED_PART` where numbers have single precision."""
 
 DIRECT, CONTINUED, SPLIT = range(3)
 """How a step was solved: by plain Newton, or by what had to come to its rescue."""
@@ -38,6 +46,13 @@ class DriftReport(NamedTuple):
     on_rest_branch: bool
     iterations: int
     method: int
+
+
+def equation_size_squared(a: Vector3, za: Vector3, w: Vector3, y: Vector3, zb: Vector3) -> float:
+    """Return the squared size that a residual is compared with: of the terms a, za and w, a product of y and zb."""
+    part = by_precision(a[0], CANCELLED_PART**2, CANCELLED_PART_SINGLE**2)
+    cancelled = part * dot(y, y) * dot(zb, zb)
+    return dot(a, a) + dot(za, za) + dot(w, w) + cancelled + smallest_normal(a[0])
 
 
 def converged_squared(like: float) -> float:

@@ -23,10 +23,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from dq_marine.kernel.drift import DriftScheme, make_drift, make_robust_drift
+from dq_marine.kernel.drift_report import equation_size_squared
 from dq_marine.kernel.dual_quaternion import DualQuaternion
 from dq_marine.kernel.inertia import Inertia
 from dq_marine.kernel.matrix3 import Matrix3, matrix_from_columns, transform
-from dq_marine.kernel.selection import smallest_normal
 from dq_marine.kernel.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
 
 
@@ -76,8 +76,8 @@ def drift_equation(inertia: Inertia, t: Vector3, a: Vector3, b: Vector3) -> Drif
     )
     w = cross(y, zb)  # (D4)
     residual = subtract(add(add(conjugate_unscaled(t, za), w), cross(t, w)), a)  # (D5)
-    size_squared = dot(a, a) + dot(za, za) + dot(w, w) + smallest_normal(dot(a, a))
-    return DriftEquation(t, gain, zb, y, za, w, residual, dot(residual, residual) / size_squared)
+    relative = dot(residual, residual) / equation_size_squared(a, za, w, y, zb)
+    return DriftEquation(t, gain, zb, y, za, w, residual, relative)
 
 
 def drift_derivative(inertia: Inertia, at: DriftEquation, dt: Vector3) -> Vector3:

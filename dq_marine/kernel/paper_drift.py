@@ -22,10 +22,11 @@ import math
 from typing import NamedTuple
 
 from dq_marine.kernel.drift import DriftScheme, make_drift, make_robust_drift
+from dq_marine.kernel.drift_report import equation_size_squared
 from dq_marine.kernel.dual_quaternion import DualQuaternion
 from dq_marine.kernel.inertia import Inertia
 from dq_marine.kernel.matrix3 import Matrix3, matrix_from_columns, transform
-from dq_marine.kernel.selection import select, smallest_normal
+from dq_marine.kernel.selection import select
 from dq_marine.kernel.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
 
 SMALLEST_C_SQUARED = 0.5
@@ -68,8 +69,7 @@ def paper_equation(inertia: Inertia, phi: Vector3, a: Vector3, b: Vector3) -> Pa
     f0 = -dot(psi, phi) / c  # (P4)
     munk = add_scaled(cross(psi, zb), f0, zb)
     residual = subtract(add(turn(c, phi, za), munk), a)  # (P5)
-    size_squared = dot(a, a) + dot(za, za) + dot(munk, munk) + smallest_normal(dot(a, a))
-    relative = dot(residual, residual) / size_squared
+    relative = dot(residual, residual) / equation_size_squared(a, za, munk, psi, zb)
     outside = select(c_squared < SMALLEST_C_SQUARED, 1.0, 0.0)
     return PaperEquation(phi, c, zb, psi, za, f0, residual, relative + outside)
 
