@@ -56,7 +56,7 @@ def sheet_table(sheet: Sheet) -> Table:
     table.add_column(no_wrap=True)
     table.add_column()
     for what, value in (*_masses(sheet), *_motions(sheet), *_steps(sheet)):
-        table.add_row(what, Text(value))
+        table.add_row(Text(what), Text(value))
     return table
 
 
