@@ -8,36 +8,14 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
-from typer.core import TyperGroup
 
 from dq_marine import __version__
-from dq_marine.errors import DQMarineError, InvalidInputError
-
-console = Console()
-error_console = Console(stderr=True)
-
-MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-
-HELP_OPTIONS = {"help_option_names": ["-h", "--help"]}
-
-
-class Commands(TyperGroup):
-    """Commands whose errors of this package end in one message and exit code 1, without a traceback."""
-
-    def invoke(self, ctx: Any) -> Any:
-        """Run the command that was asked for."""
-        try:
-            return super().invoke(ctx)
-        except DQMarineError as error:
-            error_console.print(Text.assemble(("Error: ", "bold red"), str(error)), soft_wrap=True)
-            raise typer.Exit(1) from error
-
+from dq_marine.command_basics import HELP_OPTIONS, Commands, console, examples
+from dq_marine.errors import InvalidInputError
+from dq_marine.vehicle_commands import app as vehicles_app
 
 app = typer.Typer(
     cls=Commands,
@@ -48,7 +26,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings=HELP_OPTIONS,
 )
-vehicles_app = typer.Typer(rich_markup_mode="rich", context_settings=HELP_OPTIONS)
 app.add_typer(vehicles_app, name="vehicles")
 
 
@@ -86,11 +63,6 @@ CurrentOption = Annotated[
 ]
 
 
-def _examples(*lines: str) -> str:
-    """Return the end of a command's help."""
-    return "\n\n".join(["Examples:", *(f"  [bold]{line}[/bold]" for line in lines)])
-
-
 def _show_version(asked: bool) -> None:
     if asked:
         console.print(f"dq-marine {__version__}", highlight=False)
@@ -107,7 +79,7 @@ def main(
     """Marine vehicles on a dual quaternion variational integrator: fly, train, evaluate."""
 
 
-@app.command(epilog=_examples("dq-marine demo", "dq-marine demo --out my_demo"))
+@app.command(epilog=examples("dq-marine demo", "dq-marine demo --out my_demo"))
 def demo(
     out: Annotated[Path, typer.Option("--out", help="Folder for replay.html and errors.png.")] = Path("demo"),
 ) -> None:
@@ -122,7 +94,7 @@ def demo(
 
 
 @app.command(
-    epilog=_examples(
+    epilog=examples(
         "dq-marine fly --live --start-distance 2",
         "dq-marine fly --run runs/ppo --html ppo.html --plot ppo.png --seed 3",
         "dq-marine fly --agent zero --current 0.2,-0.1,0 --seconds 60 --html drift.html",
@@ -177,7 +149,7 @@ def fly(
 
 
 @app.command(
-    epilog=_examples(
+    epilog=examples(
         "dq-marine evaluate",
         "dq-marine evaluate --run runs/ppo --agent controller --agent zero --episodes 100",
     )
@@ -232,7 +204,7 @@ def evaluate(
 
 
 @app.command(
-    epilog=_examples(
+    epilog=examples(
         "dq-marine train --run runs/ppo",
         "dq-marine train --run runs/ppo --resume",
         "dq-marine train --run runs/sac --algorithm sac --seed 1",
@@ -326,49 +298,3 @@ def _refuse_with_resume(**options: object) -> None:
             f"{', '.join(given)} cannot go with --resume: a run goes on as it was begun; leave it out, or train in "
             "another folder"
         )
-
-
-@vehicles_app.callback(
-    invoke_without_command=True,
-    epilog=_examples("dq-marine vehicles", "dq-marine vehicles check my_vehicle.toml"),
-)
-def vehicles(ctx: typer.Context) -> None:
-    """List the catalogue's vehicles, or check a vehicle file of your own."""
-    if ctx.invoked_subcommand is not None:
-        return
-    from dq_marine.vehicles import load_vehicle, vehicle_names
-
-    table = Table(caption="weight less buoyancy: positive sinks")
-    table.add_column("name", no_wrap=True)
-    for heading in (
-        "vehicle",
-        "mass\n[kg]",
-        "length x width x height\n[m]",
-        "actuated",
-        "weight less\nbuoyancy [N]",
-    ):
-        table.add_column(Text(heading))
-    for name in vehicle_names():
-        vehicle = load_vehicle(name)
-        size = vehicle.dimensions
-        actuated = [
-            motion for motion, limit in zip(MOTIONS, vehicle.wrench_limits, strict=True) if limit > 0.0
-        ]
-        table.add_row(
-            name,
-            vehicle.name,
-            f"{vehicle.rigid_body.mass:g}",
-            f"{size.length:g} x {size.width:g} x {size.height:g}",
-            "all six axes" if len(actuated) == len(MOTIONS) else ", ".join(actuated),
-            f"{vehicle.weight - vehicle.buoyant_force:+.2f}",
-        )
-    console.print(table)
-
-
-@vehicles_app.command(epilog=_examples("dq-marine vehicles check my_vehicle.toml"))
-def check(file: Annotated[Path, typer.Argument(help="A vehicle file (TOML).")]) -> None:
-    """Check a vehicle file: fields, units, physics."""
-    from dq_marine.vehicles import load_vehicle
-
-    vehicle = load_vehicle(file)
-    console.print(f"{file} is valid: {vehicle.name}, {vehicle.rigid_body.mass:g} kg", soft_wrap=True)

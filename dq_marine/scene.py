@@ -17,6 +17,7 @@ from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import Composition, StepParameters
 from dq_marine.terms import DampingTerm, ForceTerm, restoring_terms
 from dq_marine.vehicles import Vehicle, load_vehicle
+from dq_marine.vehicles.restoring import restoring_frequencies
 
 if TYPE_CHECKING:
     from dq_marine.engines.batch import Batch
@@ -164,16 +165,7 @@ class Scene:
 
         Eigenfrequencies of roll and pitch with the other axes free to follow, from the full M.
         """
-        # Attitude change dphi turns "down" by -dphi x d, hence the moment -S(arm) S(d) dphi for d along the arm.
-        arm = self.vehicle.restoring_arm
-        length = float(np.linalg.norm(arm))
-        if length == 0.0:
-            return np.zeros(2)
-        direction = arm / length
-        stiffness = length * (np.eye(3) - np.outer(direction, direction))
-        compliance = np.linalg.inv(self.vehicle.mass_matrix)[3:, 3:]
-        squares = np.sort(np.linalg.eigvals(compliance @ stiffness).real)
-        return np.sqrt(np.maximum(squares[1:], 0.0))
+        return restoring_frequencies(self.vehicle)
 
     def _restoring_terms(self) -> tuple[ForceTerm, ...]:
         """Return the restoring forces, without those that are zero but for round-off."""

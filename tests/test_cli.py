@@ -17,7 +17,16 @@ from dq_marine import __version__
 from dq_marine.cli import app
 from dq_marine.vehicles import vehicle_names
 
-COMMANDS = [["demo"], ["fly"], ["evaluate"], ["train"], ["vehicles"], ["vehicles", "check"]]
+COMMANDS = [
+    ["demo"],
+    ["fly"],
+    ["evaluate"],
+    ["train"],
+    ["vehicles"],
+    ["vehicles", "check"],
+    ["vehicles", "sheet"],
+    ["vehicles", "show"],
+]
 
 
 def run(*arguments: str | Path) -> Result:
@@ -109,10 +118,55 @@ def test_a_vehicle_file_is_checked(tmp_path: Path) -> None:
     result = run("vehicles", "check", mine)
     assert result.exit_code == 0
     assert "is valid: BlueROV2 Heavy" in result.output
+    assert "natural period of roll, pitch" in result.output
+    assert json.loads(run("vehicles", "check", mine, "--json").stdout)["dry_mass"] == 13.5
     mine.write_text(
         source.read_text(encoding="utf-8").replace("mass = 13.5", "mass = -13.5"), encoding="utf-8"
     )
     assert_refused(run("vehicles", "check", mine), r"mine\.toml is refused:\n  rigid_body\.mass = -13\.5")
+
+
+def test_the_list_has_key_numbers_and_fits_a_terminal() -> None:
+    """A name or a number that does not fit would end in an ellipsis."""
+    output = run("vehicles").output
+    assert "\u2026" not in output
+    assert re.search(r"npsauv .* X---MN .* 7\.11, 24\.5", output)
+
+
+@pytest.mark.parametrize("name", vehicle_names())
+def test_a_sheet_is_printed(name: str) -> None:
+    result = run("vehicles", "sheet", name)
+    assert result.exit_code == 0, result.output
+    for row in (
+        "dry mass",
+        "added mass in yaw",
+        "terminal speed in surge",
+        "Munk growth rate at 1 m/s ahead",
+    ):
+        assert row in result.output
+    content = json.loads(run("vehicles", "sheet", name, "--speed", "2", "--json").stdout)
+    assert content["speed"] == 2.0
+    assert set(content["terminal_speed"]) == {"surge", "sway", "heave", "roll", "pitch", "yaw"}
+
+
+def test_a_vehicle_is_shown_in_a_page(tmp_path: Path) -> None:
+    page = tmp_path / "rexrov.html"
+    result = run("vehicles", "show", "rexrov", "--html", page)
+    assert result.exit_code == 0, result.output
+    assert "RexROV" in page.read_text(encoding="utf-8")
+
+
+def test_a_vehicle_is_shown_live(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The page is up until Ctrl-C, and its server ends with the command."""
+    from dq_marine import vehicle_commands
+
+    waited = []
+    monkeypatch.setattr(vehicle_commands, "wait_for_interrupt", lambda: waited.append(True))
+    monkeypatch.setattr("dq_marine.viewer.live.display_present", lambda: False)
+    result = run("vehicles", "show", "bluerov2")
+    assert result.exit_code == 0, result.output
+    assert "Ctrl-C" in result.output
+    assert waited == [True]
 
 
 def test_evaluation_is_written(tmp_path: Path) -> None:
@@ -172,6 +226,9 @@ def test_flight_is_written(tmp_path: Path) -> None:
         ("evaluate --run nowhere", r"nowhere holds no run"),
         ("evaluate --current -0.5", r"current = -0\.5 m/s; give a speed of 0 or more"),
         ("vehicles check nowhere.toml", r"no file 'nowhere\.toml'"),
+        ("vehicles sheet titanic", r"no vehicle 'titanic'"),
+        ("vehicles sheet rexrov --speed 0", r"speed = 0 is not finite and above 0"),
+        ("vehicles show rexrov --html nowhere/x.html", r"the folder nowhere does not exist"),
         ("train --run x --preset nothing", r"no preset or file 'nothing'; the presets are"),
         ("train --run x --preset sac --algorithm ppo", r"--algorithm ppo does not go with --preset sac"),
         ("train --run x --preset dp_controller", r"is refused:\n  timesteps: missing"),

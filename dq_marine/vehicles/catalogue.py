@@ -5,14 +5,10 @@ from __future__ import annotations
 import os
 import tomllib
 from pathlib import Path
-from typing import Any
-
-from pydantic import ValidationError
-from pydantic_core import ErrorDetails
 
 from dq_marine.errors import InvalidInputError, VehicleFileError
 from dq_marine.vehicles.model import Vehicle
-from dq_marine.vehicles.plausibility import Implausible
+from dq_marine.vehicles.validation import validated
 
 _FOLDER = Path(__file__).parent
 
@@ -60,33 +56,4 @@ def _read(path: Path) -> Vehicle:
         raise VehicleFileError(f"{path}: not a TOML file: {error}") from error
     except OSError as error:
         raise VehicleFileError(f"{path}: cannot be read: {error.strerror}") from error
-    try:
-        return Vehicle.model_validate(content)
-    except ValidationError as error:
-        lines = [_line(detail) for detail in error.errors(include_url=False)]
-        raise VehicleFileError(f"{path} is refused:\n  " + "\n  ".join(lines)) from error
-
-
-def _line(detail: ErrorDetails) -> str:
-    """Say one mistake: field = value: problem; remedy."""
-    cause: Any = detail.get("ctx", {}).get("error")
-    if isinstance(cause, Implausible):
-        return f"{cause.field} = {cause.value}: {cause.problem}; {cause.remedy}"
-    field = ".".join(str(part) for part in detail["loc"])
-    if detail["type"] == "extra_forbidden":
-        return f"{field} = {detail['input']!r}: unknown key; remove it or correct its spelling"
-    if detail["type"] == "missing":
-        return f"{field}: missing; add it"
-    problem = _PROBLEMS.get(detail["type"], detail["msg"].removeprefix("Value error, "))
-    return f"{field} = {detail['input']!r}: {problem}"
-
-
-_PROBLEMS = {
-    "finite_number": "not a finite number; give a measured or estimated value",
-    "greater_than": "must be greater than 0; check sign and unit",
-    "greater_than_equal": "must not be negative; check the sign",
-    "float_type": "not a number; write it without quotes",
-    "float_parsing": "not a number; write it without quotes",
-    "too_short": "too few numbers; check the length",
-    "too_long": "too many numbers; check the length",
-}
+    return validated(content, str(path), VehicleFileError)

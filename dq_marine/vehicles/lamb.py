@@ -79,10 +79,36 @@ def ellipsoid_mass_matrix(a: float, b: float, c: float, density: float = 1000.0)
     Raises:
         InvalidInputError: a value is not above 0.
     """
+    added = ellipsoid_added_mass(a, b, c, density)
+    mass = density * ellipsoid_volume(a, b, c)
+    return np.diag(np.concatenate([[mass] * 3, mass * squared_gyration_radii(a, b, c)]) + added)
+
+
+def ellipsoid_added_mass(a: float, b: float, c: float, density: float = 1000.0) -> NDArray[np.float64]:
+    """Return the diagonal of an ellipsoid's M_A about its centre [kg, kg m^2], shape (6,).
+
+    Args:
+        a: semi-axis along x [m].
+        b: along y [m].
+        c: along z [m].
+        density: of the water [kg/m^3].
+
+    Raises:
+        InvalidInputError: a value is not above 0.
+    """
     along, about = added_mass_coefficients(a, b, c)
-    mass = finite_number("density", density, above=0.0) * 4.0 / 3.0 * math.pi * a * b * c
-    inertia = 0.2 * mass * np.array([b * b + c * c, c * c + a * a, a * a + b * b])
-    return np.diag(np.concatenate([mass * (1.0 + along), inertia * (1.0 + about)]))
+    displaced = finite_number("density", density, above=0.0) * ellipsoid_volume(a, b, c)
+    return displaced * np.concatenate([along, about * squared_gyration_radii(a, b, c)])
+
+
+def ellipsoid_volume(a: float, b: float, c: float) -> float:
+    """Return the volume of an ellipsoid with these semi-axes [m^3]."""
+    return 4.0 / 3.0 * math.pi * a * b * c
+
+
+def squared_gyration_radii(a: float, b: float, c: float) -> NDArray[np.float64]:
+    """Return a homogeneous ellipsoid's moments of inertia about its axes over its mass [m^2], shape (3,)."""
+    return 0.2 * np.array([b * b + c * c, c * c + a * a, a * a + b * b])
 
 
 def _alpha(squares: NDArray[np.float64], axis: int) -> float:

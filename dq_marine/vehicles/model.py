@@ -7,7 +7,7 @@ Craft Hydrodynamics and Motion Control.
 
 from __future__ import annotations
 
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,9 @@ from dq_marine.vehicles.plausibility import check_vehicle
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity [m/s^2]."""
+
+MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+"""Names of the six axes, in Fossen's order."""
 
 
 class RigidBody(Table):
@@ -93,7 +96,7 @@ class Dimensions(Table):
     length: Positive
     width: Positive
     height: Positive
-    shape: Literal["open_frame", "torpedo"]
+    shape: Literal["open_frame", "torpedo", "ellipsoid"]
 
 
 class Thruster(Table):
@@ -118,6 +121,8 @@ class Vehicle(Table):
         rigid_body: mass and its distribution.
         buoyancy: displaced water.
         added_mass: M_A, six numbers or a 6x6 matrix [kg, kg m, kg m^2]; minus the hydrodynamic derivatives.
+        added_mass_asymmetry: how far `added_mass` as published is from symmetric, at most: |A_ij - A_ji| over
+            sqrt(M_ii M_jj). It must be said where it is more than rounding; the symmetric part is what is used.
         damping: linear and quadratic.
         limits: of the actuators.
         dimensions: overall size.
@@ -130,6 +135,7 @@ class Vehicle(Table):
     rigid_body: RigidBody
     buoyancy: Buoyancy
     added_mass: Matrix6
+    added_mass_asymmetry: Annotated[float, Field(ge=0.0, le=0.1)] = 0.0
     damping: Damping
     limits: Limits
     dimensions: Dimensions
@@ -162,7 +168,7 @@ class Vehicle(Table):
 
     @property
     def mass_matrix(self) -> NDArray[np.float64]:
-        """M = M_RB + M_A, shape (6, 6)."""
+        """M = M_RB + M_A, with the symmetric part of M_A, shape (6, 6)."""
         added = np.array(self.added_mass)
         return np.asarray(self.rigid_body_matrix + 0.5 * (added + added.T))
 
@@ -195,6 +201,7 @@ def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 __all__ = [
+    "MOTIONS",
     "STANDARD_GRAVITY",
     "Buoyancy",
     "Damping",

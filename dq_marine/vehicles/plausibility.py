@@ -5,10 +5,13 @@ Each check raises `Implausible` with the field, the value, the limit and the rem
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from dq_marine.vehicles.coupling import asymmetry
 
 if TYPE_CHECKING:
     from dq_marine.vehicles.model import Vehicle
@@ -38,12 +41,12 @@ def check_vehicle(vehicle: Vehicle) -> None:
     Raises:
         Implausible: for the first contradiction found.
     """
-    _check_symmetric("rigid_body.inertia", np.array(vehicle.rigid_body.inertia))
-    _check_symmetric("added_mass", np.array(vehicle.added_mass))
+    _check_inertia_symmetry(vehicle)
     _check_added_mass_sign(vehicle)
     _check_density(vehicle)
     _check_dimensions(vehicle)
     _check_rigid_inertia(vehicle)
+    _check_added_mass_symmetry(vehicle)
     _check_mass_matrix(vehicle)
     _check_dissipative(vehicle)
     _check_added_mass_size(vehicle)
@@ -51,18 +54,43 @@ def check_vehicle(vehicle: Vehicle) -> None:
     _check_thrusters(vehicle)
 
 
-def _check_symmetric(field: str, matrix: NDArray[np.float64]) -> None:
-    asymmetry = float(np.abs(matrix - matrix.T).max())
-    largest = float(np.abs(matrix).max())
-    if asymmetry > SYMMETRY_TOLERANCE * largest:
-        i, j = np.unravel_index(int(np.abs(matrix - matrix.T).argmax()), matrix.shape)
+def _check_inertia_symmetry(vehicle: Vehicle) -> None:
+    inertia = np.array(vehicle.rigid_body.inertia)
+    skewness = np.abs(inertia - inertia.T)
+    largest = float(np.abs(inertia).max())
+    if skewness.max() > SYMMETRY_TOLERANCE * largest:
+        i, j = np.unravel_index(int(skewness.argmax()), inertia.shape)
         raise Implausible(
-            field,
-            f"[{i}][{j}] = {matrix[i, j]:.6g}, [{j}][{i}] = {matrix[j, i]:.6g}",
-            f"the matrix is not symmetric: entries differ by {asymmetry:.3g}, more than "
+            "rigid_body.inertia",
+            _pair(inertia, int(i), int(j)),
+            f"the matrix is not symmetric: entries differ by {skewness.max():.3g}, more than "
             f"{SYMMETRY_TOLERANCE:g} of the largest, {largest:.4g}",
-            "check the signs of the off-diagonal entries, or write the symmetric part (M + M^T)/2",
+            "check the products of inertia",
         )
+
+
+def _check_added_mass_symmetry(vehicle: Vehicle) -> None:
+    added = np.array(vehicle.added_mass)
+    value, i, j = asymmetry(added, vehicle.mass_matrix)
+    limit = max(SYMMETRY_TOLERANCE, vehicle.added_mass_asymmetry)
+    if value > limit:
+        raise Implausible(
+            "added_mass",
+            _pair(added, i, j),
+            f"the matrix is not symmetric: these differ by {value:.2g} of sqrt(M_{i}{i} M_{j}{j}), more than {limit:g}",
+            "check the signs of the off-diagonal entries, or write the symmetric part (M + M^T)/2; if it was published "
+            f"like this, say so with added_mass_asymmetry = {_rounded_up(value):g}, and the symmetric part is taken",
+        )
+
+
+def _pair(matrix: NDArray[np.float64], i: int, j: int) -> str:
+    return f"[{i}][{j}] = {matrix[i, j]:.6g}, [{j}][{i}] = {matrix[j, i]:.6g}"
+
+
+def _rounded_up(value: float) -> float:
+    """Return the next larger number of two digits."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return math.ceil(value / unit) * unit
 
 
 def _check_added_mass_sign(vehicle: Vehicle) -> None:

@@ -17,7 +17,7 @@ from dq_marine.checks import finite_array, unit_quaternion
 from dq_marine.errors import InvalidInputError
 
 FloatArray = NDArray[np.float64]
-ShapeKind = Literal["open_frame", "torpedo"]
+ShapeKind = Literal["open_frame", "torpedo", "ellipsoid"]
 
 SNAPSHOT_ARRAYS = {
     "position_ned": 3,
@@ -68,6 +68,17 @@ class Snapshot:
             _set_read_only(self, name, checked)
 
 
+def at_rest(depth: float) -> Snapshot:
+    """Return a vehicle at rest in still water, level, heading north, at a depth [m]."""
+    return Snapshot(
+        time=0.0,
+        position_ned=np.array([0.0, 0.0, depth]),
+        quaternion_body_to_ned=np.array([1.0, 0.0, 0.0, 0.0]),
+        wrench_body=np.zeros(6),
+        current_ned=np.zeros(3),
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class Thruster:
     """Where a thruster sits and which way it pushes.
@@ -102,8 +113,8 @@ class Shape:
         height: along body z [m].
         thrusters: drawn one by one; may be empty.
         max_force: force [N] at which the thrust arrow has its full length.
-        kind: `open_frame` (a work-class or inspection ROV) or `torpedo` (an AUV: a body of
-            revolution with fins).
+        kind: `open_frame` (a work-class or inspection ROV), `torpedo` (an AUV: a body of revolution with
+            fins) or `ellipsoid`.
 
     Raises:
         InvalidInputError: a dimension or force that is not positive, or an unknown kind.

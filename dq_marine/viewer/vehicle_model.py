@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
-from dq_marine.viewer import open_frame_model, torpedo_model
+from dq_marine.viewer import ellipsoid_model, open_frame_model, torpedo_model
 from dq_marine.viewer.meshes import sphere
 from dq_marine.viewer.messages import Command, set_object
-from dq_marine.viewer.snapshot import Shape
+from dq_marine.viewer.snapshot import Shape, ShapeKind
 from dq_marine.viewer.three_json import Look, Painted, painted_surface
 from dq_marine.viewer.thruster_model import thruster_model
 
@@ -22,6 +23,18 @@ GHOST = Look(opacity=0.35, foggy=False)
 
 GHOST_GREEN = 0x5CFFA0
 BALL_RADIUS_IN_LENGTHS = 0.3
+
+HULLS: dict[ShapeKind, Callable[[Shape], dict[str, list[Painted]]]] = {
+    "open_frame": open_frame_model.open_frame_parts,
+    "torpedo": torpedo_model.torpedo_parts,
+    "ellipsoid": ellipsoid_model.ellipsoid_parts,
+}
+
+THRUSTER_RADII: dict[ShapeKind, Callable[[Shape], float]] = {
+    "open_frame": open_frame_model.thruster_radius,
+    "torpedo": torpedo_model.thruster_radius,
+    "ellipsoid": ellipsoid_model.thruster_radius,
+}
 
 
 def draw_vehicle(shape: Shape) -> list[Command]:
@@ -44,15 +57,12 @@ def draw_goal(shape: Shape) -> list[Command]:
 
 def _hull_parts(shape: Shape) -> dict[str, list[Painted]]:
     """The solid parts of a vehicle but its thrusters, by name, such as `frame`."""
-    if shape.kind == "torpedo":
-        return torpedo_model.torpedo_parts(shape)
-    return open_frame_model.open_frame_parts(shape)
+    return HULLS[shape.kind](shape)
 
 
 def _thrusters(shape: Shape) -> dict[str, list[Painted]]:
     """All thrusters of a vehicle, as `thrusters/0` and so on."""
-    model = torpedo_model if shape.kind == "torpedo" else open_frame_model
-    radius = model.thruster_radius(shape)
+    radius = THRUSTER_RADII[shape.kind](shape)
     return {
         f"thrusters/{number}": thruster_model(thruster, radius)
         for number, thruster in enumerate(shape.thrusters)

@@ -118,6 +118,19 @@ def test_asymmetry_is_refused_beyond_and_accepted_within_tolerance(tmp_path):
     assert np.array_equal(vehicle.mass_matrix, vehicle.mass_matrix.T)
 
 
+def test_a_published_asymmetry_is_accepted_if_it_is_said(tmp_path):
+    """And then it is the symmetric part that is used."""
+    path = edited(tmp_path, LINE, asymmetric(0.5, 0.45))
+    with pytest.raises(VehicleFileError, match=r"say so with added_mass_asymmetry = 0\.019,"):
+        load_vehicle(path)
+    vehicle = load_vehicle(edited(tmp_path, LINE, f"{asymmetric(0.5, 0.45)}\nadded_mass_asymmetry = 0.019"))
+    assert vehicle.mass_matrix[0, 4] == vehicle.mass_matrix[4, 0] == pytest.approx(0.475)
+    with pytest.raises(VehicleFileError, match=r"more than 0\.018"):
+        load_vehicle(edited(tmp_path, LINE, f"{asymmetric(0.5, 0.45)}\nadded_mass_asymmetry = 0.018"))
+    with pytest.raises(VehicleFileError, match=r"less than or equal to 0\.1"):
+        load_vehicle(edited(tmp_path, LINE, f"{LINE}\nadded_mass_asymmetry = 0.5"))
+
+
 def test_an_indefinite_mass_matrix_is_refused(tmp_path):
     with pytest.raises(VehicleFileError, match="not positive definite"):
         load_vehicle(edited(tmp_path, LINE, asymmetric(5.0, 5.0)))

@@ -53,7 +53,7 @@ def test_sizes_must_be_positive(field: str, value: float) -> None:
 
 
 def test_unknown_kind_is_refused() -> None:
-    with pytest.raises(InvalidInputError, match="open_frame, torpedo"):
+    with pytest.raises(InvalidInputError, match="open_frame, torpedo, ellipsoid"):
         Shape(1.0, 1.0, 1.0, kind="glider")  # type: ignore[arg-type]
 
 
