@@ -35,7 +35,7 @@ def advice(results: dict[str, Rows]) -> Table | None:
         *extreme_choices(results.get("extreme", [])),
     ]
     lines = [[choice.wanted, choice.take, choice.measured] for choice in choices]
-    return Table("What to choose when", ["wanted", "take", "because"], lines) if lines else None
+    return Table("What to choose when", ["wanted", "take", "because"], lines, words=True) if lines else None
 
 
 def cost_choices(rows: Rows) -> list[Choice]:

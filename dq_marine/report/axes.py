@@ -52,6 +52,13 @@ def for_page(svg: str, name: str) -> str:
     return body.replace("'DejaVu Sans'", FALLBACK_FONTS)
 
 
+def make_logarithmic(axes: Any) -> None:
+    """Give both axes a logarithm, with ticks at powers of ten alone: there are many decades."""
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.minorticks_off()
+
+
 def add_legend(figure: Any, names: Iterable[str], titles: dict[str, str], columns: int) -> None:
     """Put one legend for all panels below them."""
     handles = [Line2D([], [], **style_of(name).arguments(), label=titles.get(name, name)) for name in names]

@@ -12,7 +12,7 @@ from dq_marine.report.plan import Row, Rows, find
 QUANTITIES = {
     "attitude": "attitude error [rad]",
     "position": "position error [m]",
-    "velocity": "velocity error",
+    "velocity": "velocity error [m/s, rad/s]",
 }
 TIME, EVALUATIONS = "best_ns", "evaluations"
 RIVAL = "rk4_quaternion"

@@ -52,24 +52,24 @@ def observed_order(
 
 
 def cost_at(costs: Sequence[float], errors: Sequence[float], target: float) -> float | None:
-    """Return the least cost at which an error is reached and kept, between points on straight lines of logarithms.
+    """Return the cost at which an error is reached, between points on straight lines of logarithms.
+
+    A point counts if the next finer one is as exact, too: others were lucky.
 
     Args:
-        costs: of the points, any order.
+        costs: of the points, from coarse to fine.
         errors: of the points.
         target: the error wanted.
 
     Returns:
-        The cost; that of the cheapest point if that is exact enough; None if no point is.
+        The cost; that of the coarsest point if that is exact enough; None if no point is.
     """
-    points = sorted(zip(costs, errors, strict=True))
-    missed = [index for index, (_, error) in enumerate(points) if not error <= target]
-    first = missed[-1] + 1 if missed else 0
-    if first == len(points):
+    met = [error <= target for error in errors]
+    first = next((index for index, _ in enumerate(met) if all(met[index : index + 2])), None)
+    if first is None:
         return None
-    cost, error = points[first]
-    if first == 0 or not math.isfinite(points[first - 1][1]) or error <= 0.0:
+    cost, error = costs[first], errors[first]
+    if first == 0 or not math.isfinite(errors[first - 1]) or error <= 0.0:
         return cost
-    cost_before, error_before = points[first - 1]
-    share = math.log(error_before / target) / math.log(error_before / error)
-    return float(cost_before * (cost / cost_before) ** share)
+    share = math.log(errors[first - 1] / target) / math.log(errors[first - 1] / error)
+    return float(costs[first - 1] * (cost / costs[first - 1]) ** share)

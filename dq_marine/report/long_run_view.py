@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from dq_marine.report.axes import add_legend, drawable, new_figure
+from dq_marine.report.axes import add_legend, drawable, make_logarithmic, new_figure
 from dq_marine.report.names import OWN, in_order, title_of
 from dq_marine.report.plan import Row, Rows, distinct, find
 from dq_marine.report.presentation import Check, Drawing, Table, factor, listed, number
@@ -62,8 +62,7 @@ def draw(rows: Rows) -> Any:
 
 def draw_panel(axes: Any, rows: Rows, quantity: str) -> None:
     """Draw the errors of all methods."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    make_logarithmic(axes)
     low, high = SHOWN
     for name in in_order(set(distinct(rows, "method"))):
         own = find(rows, method=name)

@@ -17,7 +17,19 @@ from dq_marine.engines.workers import usable_cores
 PACKAGE = Path(__file__).parents[1]
 LIBRARIES = ("dq-marine", "numpy", "numba", "llvmlite", "scipy", "mujoco", "gymnasium", "matplotlib")
 
-SHOWING = ("presentation", "style", "axes", "curves", "fits", "orders", "rates", "advice", "page", "command")
+SHOWING = (
+    "presentation",
+    "style",
+    "axes",
+    "curves",
+    "fits",
+    "orders",
+    "overview",
+    "rates",
+    "advice",
+    "page",
+    "command",
+)
 """Modules of the report that only show what was measured, besides `*_view` and `page_*`."""
 
 

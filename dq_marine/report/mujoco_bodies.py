@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -80,13 +82,25 @@ def load(case: Case, integrator: Integrator, step: float) -> tuple[Any, Any, Any
     return mujoco, model, data
 
 
+@contextmanager
+def warnings_dropped(mujoco: Any) -> Iterator[None]:
+    """Keep MuJoCo from printing that a motion blows up, and from a log file in the working folder."""
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda message: None)
+    try:
+        yield
+    finally:
+        mujoco.set_mju_user_warning(before)
+
+
 def run(case: Case, integrator: Integrator, step: float) -> tuple[EndState, float]:
     """Return where a case ends after steps of about a size [s] that divides its duration, and the wall time [s]."""
     steps = max(1, round(case.duration / step))
     mujoco, model, data = load(case, integrator, case.duration / steps)
-    begin = time.perf_counter()
-    mujoco.mj_step(model, data, steps)
-    seconds = time.perf_counter() - begin
+    with warnings_dropped(mujoco):
+        begin = time.perf_counter()
+        mujoco.mj_step(model, data, steps)
+        seconds = time.perf_counter() - begin
     attitude = np.array(data.qpos[3:])
     velocity = quaternion_matrix(attitude).T @ data.qvel[:3]
     return EndState(np.array(data.qpos[:3]), attitude, np.concatenate([velocity, data.qvel[3:]])), seconds

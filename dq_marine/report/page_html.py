@@ -98,7 +98,7 @@ def in_short(page: Page) -> str:
         for chapter in page.chapters
         if chapter.findings
     )
-    advised = table_of(page.advice, "words") if page.advice else ""
+    advised = table_of(page.advice) if page.advice else ""
     absent = f'<p class="note">Not measured: {escape(", ".join(page.missing))}.</p>' if page.missing else ""
     return f'<section id="in-short"><h2>In short</h2>{advised}<ul>{items}</ul>{absent}</section>'
 
@@ -151,7 +151,7 @@ def picture_of(picture: Picture) -> str:
     )
 
 
-def table_of(table: Table, kind: str = "") -> str:
+def table_of(table: Table) -> str:
     """Return a table under its title."""
     header = "".join(f"<th>{escape(text)}</th>" for text in table.header)
     rows = "".join(
@@ -159,8 +159,8 @@ def table_of(table: Table, kind: str = "") -> str:
     )
     note = f'<p class="note">{inline(table.note)}</p>' if table.note else ""
     return (
-        f'<h3>{escape(table.title)}</h3><div class="wide"><table class="{kind}"><thead><tr>{header}</tr></thead>'
-        f"<tbody>{rows}</tbody></table></div>{note}"
+        f'<h3>{escape(table.title)}</h3><div class="wide"><table class="{"words" if table.words else "numbers"}">'
+        f"<thead><tr>{header}</tr></thead><tbody>{rows}</tbody></table></div>{note}"
     )
 
 

@@ -56,17 +56,19 @@ def check_section(checks: Sequence[Check]) -> str:
     passed = sum(check.passed for check in checks)
     return (
         f"## Checks against theory\n\n{passed} of {len(checks)} checks passed. Wall time decides none.\n\n"
-        + grid(["check", "measured", "theory", ""], lines)
+        + grid(["check", "measured", "theory", ""], lines, words=True)
     )
 
 
 def table_of(table: Table) -> str:
     """Return a table under its title."""
     note = f"\n\n{table.note}" if table.note else ""
-    return f"### {table.title}\n\n{grid(table.header, table.lines)}{note}"
+    return f"### {table.title}\n\n{grid(table.header, table.lines, words=table.words)}{note}"
 
 
-def grid(header: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
+def grid(header: Sequence[str], lines: Iterable[Sequence[str]], *, words: bool = False) -> str:
     """Return a table; a bar in a cell does not end it."""
-    rows = [header, ["---", *["---:"] * (len(header) - 1)], *lines]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows)
+    rule = ["---", *["---" if words else "---:"] * (len(header) - 1)]
+    return "\n".join(
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in [header, rule, *lines]
+    )

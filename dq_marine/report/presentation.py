@@ -26,19 +26,21 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of text; the first column is words, the others are numbers.
+    """Rows of text; the first column is words, the others are numbers unless the table is one of words.
 
     Attributes:
         title: above it.
         header: one text a column.
         lines: one text a cell.
         note: below it.
+        words: whether all columns are words.
     """
 
     title: str
     header: Sequence[str]
     lines: Sequence[Sequence[str]]
     note: str = ""
+    words: bool = False
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from dq_marine.report.axes import new_figure
+from dq_marine.report.axes import make_logarithmic, new_figure
 from dq_marine.report.names import in_order, title_of
 from dq_marine.report.plan import Rows, distinct, find
 from dq_marine.report.presentation import Check, Drawing, Table, listed, number
@@ -74,8 +74,9 @@ def draw(rows: Rows, kind: str) -> Any:
     grid = figure.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
     for axes in grid.flat[len(names) :]:
         axes.set_visible(False)
+    floor = 10.0 ** math.floor(math.log10(min(row["largest_step"] or CEILING for row in rows)) - 1.0)
     for axes, name in zip(grid.flat, names, strict=False):
-        draw_panel(axes, find(rows, method=name), BOUNDS.get(kind, {}).get(name))
+        draw_panel(axes, find(rows, method=name), BOUNDS.get(kind, {}).get(name), floor)
         axes.set_title(title_of(name), fontsize=9.5)
     for axes in grid[-1]:
         axes.set_xlabel(TITLES[kind][1])
@@ -88,11 +89,9 @@ def draw(rows: Rows, kind: str) -> Any:
     return figure
 
 
-def draw_panel(axes: Any, rows: Rows, bound: float | None) -> None:
+def draw_panel(axes: Any, rows: Rows, bound: float | None, floor: float) -> None:
     """Draw where one method is stable, where it fails, and what theory says."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    floor = 1e-6
+    make_logarithmic(axes)
     stiffness = [row["stiffness"] for row in rows]
     limits = [row["largest_step"] or floor for row in rows]
     style = style_of(rows[0]["method"])

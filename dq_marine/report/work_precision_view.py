@@ -6,7 +6,7 @@ import math
 from functools import partial
 from typing import Any
 
-from dq_marine.report.axes import add_legend, add_slope_guides, new_figure
+from dq_marine.report.axes import add_legend, add_slope_guides, make_logarithmic, new_figure
 from dq_marine.report.cases import CASES
 from dq_marine.report.curves import (
     EVALUATIONS,
@@ -19,6 +19,7 @@ from dq_marine.report.curves import (
 )
 from dq_marine.report.names import case_title, in_order, order_of, title_of
 from dq_marine.report.orders import order_checks, order_table
+from dq_marine.report.overview import draw_overview
 from dq_marine.report.plan import Rows, distinct
 from dq_marine.report.presentation import Check, Drawing, Table, duration, factor, listed, number, power
 from dq_marine.report.rates import kind_of
@@ -37,16 +38,19 @@ USUAL_STEP = 0.02
 
 
 def drawings(rows: Rows) -> list[Drawing]:
-    """Return a figure a case: three errors against time, and against evaluations."""
-    return [
-        Drawing(
-            f"work-precision-{case}",
-            case_title(case),
-            caption(case),
-            partial(draw_case, curves_of(rows, case)),
-        )
-        for case in distinct(rows, "case")
+    """Return an overview, and a figure a case: three errors against time, and against evaluations."""
+    all_curves = {case: curves_of(rows, case) for case in distinct(rows, "case")}
+    overview = Drawing(
+        "work-precision-overview",
+        f"The fastest DQVI and {title_of(RIVAL)}, by the error that is wanted",
+        "A line is drawn where both get there. Errors fall to the right.",
+        partial(draw_overview, all_curves),
+    )
+    figures = [
+        Drawing(f"work-precision-{case}", case_title(case), caption(case), partial(draw_case, curves))
+        for case, curves in all_curves.items()
     ]
+    return [overview, *figures]
 
 
 def caption(case: str) -> str:
@@ -75,8 +79,7 @@ def draw_case(curves: dict[str, Curve]) -> Any:
 
 def draw_curves(axes: Any, curves: dict[str, Curve], quantity: str, cost: str) -> None:
     """Draw all methods into one panel."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    make_logarithmic(axes)
     low, high = SHOWN_ERRORS
     for name, curve in curves.items():
         pairs = zip(curve.costs(cost), curve.errors(quantity, cost), strict=True)
@@ -107,7 +110,7 @@ def ratio_table(all_curves: dict[str, dict[str, Curve]], quantity: str) -> Table
         f"Time of the fastest DQVI over that of {title_of(RIVAL)}, by {QUANTITIES[quantity]}",
         ["case", *(f"{power(target)}" for target in TARGETS)],
         lines,
-        "Below 1, DQVI is faster; with the order of the fastest. Read off between measured points.",
+        "Below 1, DQVI is faster. In brackets the order of the fastest. Read off between measured points.",
     )
 
 

@@ -36,7 +36,7 @@ def test_a_cost_lies_on_the_line_between_two_points() -> None:
     costs, errors = [1.0, 10.0, 100.0], [1e-1, 1e-3, 1e-5]
     assert cost_at(costs, errors, 1e-2) == pytest.approx(10.0**0.5)
     assert cost_at(costs, errors, 1e-5) == pytest.approx(100.0)
-    assert cost_at(costs[::-1], errors[::-1], 1e-4) == pytest.approx(10.0**1.5)
+    assert cost_at(costs, errors, 1e-4) == pytest.approx(10.0**1.5)
 
 
 def test_a_first_point_that_is_exact_enough_is_the_cost() -> None:
@@ -50,8 +50,16 @@ def test_an_error_that_is_not_reached_has_no_cost() -> None:
 
 
 def test_a_lucky_coarse_point_does_not_count() -> None:
-    """An error that is met, missed and met again is met from the last time on."""
+    """An error that is met, missed and met again is met from the second time on."""
     assert cost_at([1.0, 2.0, 4.0], [1e-5, 1e-1, 1e-5], 1e-3) == pytest.approx(2.0 * 2.0**0.5)
+
+
+def test_round_off_behind_an_exact_point_does_not_count() -> None:
+    assert cost_at([1.0, 2.0, 4.0, 8.0], [1e-5, 1e-9, 1e-9, 3e-8], 1e-8) == pytest.approx(2.0**0.75)
+
+
+def test_a_coarse_step_that_takes_long_is_no_fine_one() -> None:
+    assert cost_at([50.0, 2.0, 4.0], [1.0, 1e-2, 1e-4], 1e-3) == pytest.approx(2.0 * 2.0**0.5)
 
 
 def test_behind_a_failure_the_first_point_that_is_exact_enough_is_the_cost() -> None:
