@@ -18,7 +18,7 @@ from dq_marine.report.page_html import html_of
 from dq_marine.report.page_markdown import FIGURES, markdown_of
 from dq_marine.report.plan import Plan, Rows
 from dq_marine.report.registry import STUDIES
-from dq_marine.report.runner import measure, measured
+from dq_marine.report.runner import InterruptedRunError, measure, measured
 from dq_marine.report.store import Store
 
 
@@ -67,15 +67,18 @@ def make_report(request: Request, console: Console) -> Page:
 
     Raises:
         InvalidInputError: a study or case is unknown, or the folder cannot be written.
-        InterruptedRunError: Ctrl-C was pressed while something was measured.
+        InterruptedRunError: Ctrl-C was pressed.
     """
     wanted = [STUDIES[name] for name in checked(request).only] or list(STUDIES.values())
     store = Store(request.out, request.plan)
-    measure(wanted, request.plan, store, console, fresh=request.fresh)
+    count = measure(wanted, request.plan, store, console, fresh=request.fresh)
     results = measured(STUDIES.values(), Plan(request.plan.quick, request.plan.seed), store)
-    with console.status("drawing") as status:
-        page = make_page(STUDIES, results, request.plan, status.update)
-        write_report(page, results, request.out)
+    try:
+        with console.status("drawing") as status:
+            page = make_page(STUDIES, results, request.plan, status.update)
+            write_report(page, results, request.out)
+    except KeyboardInterrupt:
+        raise InterruptedRunError(count, count) from None
     show(page, request.out, console)
     return page
 

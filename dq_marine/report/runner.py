@@ -45,7 +45,7 @@ def measure(studies: Iterable[Study], plan: Plan, store: Store, console: Console
         fresh: whether to measure again what the store has.
 
     Returns:
-        Number of units that were measured now.
+        Number of units that are measured, now and before.
 
     Raises:
         InterruptedRunError: Ctrl-C was pressed.
@@ -66,7 +66,7 @@ def measure(studies: Iterable[Study], plan: Plan, store: Store, console: Console
                 done += 1
         except KeyboardInterrupt:
             raise InterruptedRunError(len(wanted) - len(missing) + done, len(wanted)) from None
-    return done
+    return len(wanted)
 
 
 def measured(studies: Iterable[Study], plan: Plan, store: Store) -> dict[str, Rows]:

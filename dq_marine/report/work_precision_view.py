@@ -86,7 +86,7 @@ def draw_curves(axes: Any, curves: dict[str, Curve], quantity: str, cost: str) -
         shown = [(SCALES[cost] * x, min(max(y, 2.0 * low), 0.7 * high)) for x, y in pairs if math.isfinite(y)]
         if shown:
             axes.plot(*zip(*shown, strict=True), **style_of(name).arguments())
-        failed = [row[cost] for row in curve.failures if cost in row]
+        failed = [SCALES[cost] * row[cost] for row in curve.failures if cost in row]
         axes.plot(failed, [0.7 * high] * len(failed), "x", color=style_of(name).colour, markersize=5)
     axes.set_ylim(low, high)
 

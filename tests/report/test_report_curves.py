@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 
 import pytest
+from matplotlib import rc_context
 from report import synthetic
 
 from dq_marine.report.curves import best_own, curves_of
+from dq_marine.report.style import SETTINGS
+from dq_marine.report.work_precision_view import draw_case
 
 
 def test_errors_and_times_of_a_step_size_come_together() -> None:
@@ -61,3 +64,15 @@ def test_the_best_own_method_is_the_cheapest_that_gets_there() -> None:
         }
         assert best[1] == min(cost for cost in costs.values() if cost is not None) == costs[best[0]]
     assert best_own({}, "attitude", 1e-2) is None
+
+
+def test_failures_are_drawn_where_points_of_the_same_cost_would_be() -> None:
+    """A library that fails has a time, too, and that in the axis' unit."""
+    rows = synthetic.work_precision()
+    lost = {"kind": "error", "case": synthetic.CASE, "method": "mujoco_euler", "outcome": "blew up"}
+    rows.append(lost | {"evaluations": 100.0, "best_ns": 2000.0, "median_ns": 2000.0})
+    with rc_context(SETTINGS):
+        figure = draw_case(curves_of(rows, synthetic.CASE))
+    left, right = figure.axes[0].get_xlim()
+    assert right < 1e-1
+    assert left < 2e-6 < right
