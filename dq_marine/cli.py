@@ -310,7 +310,7 @@ def _refuse_with_resume(**options: object) -> None:
 def report(
     quick: Annotated[
         bool,
-        typer.Option("--quick", help="A small version, in two minutes; the full one takes half an hour."),
+        typer.Option("--quick", help="A small version, in two minutes; the full one takes some ten."),
     ] = False,
     out: Annotated[Path, typer.Option("--out", help="Folder for the page and the points.")] = Path("report"),
     only: Annotated[

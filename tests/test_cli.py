@@ -22,6 +22,7 @@ COMMANDS = [
     ["fly"],
     ["evaluate"],
     ["train"],
+    ["report"],
     ["vehicles"],
     ["vehicles", "check"],
     ["vehicles", "sheet"],

@@ -84,14 +84,22 @@ def load() -> float | None:
 def source_fingerprint() -> str:
     """Return a hash over the sources that decide what is measured: not those that only show it."""
     digest = hashlib.sha256()
-    for path in sorted(PACKAGE.rglob("*")):
-        inside = path.relative_to(PACKAGE)
-        if path.suffix not in (".py", ".toml") or inside.parts[0] in ("agents", "viewer", "cli.py"):
-            continue
-        if inside.parts[0] == "report" and only_shows(path.stem):
-            continue
-        digest.update(str(inside).encode() + b"\0" + path.read_bytes())
+    for path in measuring_sources():
+        digest.update(str(path.relative_to(PACKAGE)).encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()[:16]
+
+
+def measuring_sources() -> list[Path]:
+    """Return the files that decide what is measured; a checkout has the environments behind a link."""
+    files = {path for folder in (PACKAGE, PACKAGE / "envs") for path in folder.rglob("*")}
+    return sorted(path for path in files if path.suffix in (".py", ".toml") and measures(path))
+
+
+def measures(path: Path) -> bool:
+    """Whether a file decides what is measured."""
+    inside = path.relative_to(PACKAGE).parts
+    shows = inside[0] == "report" and only_shows(path.stem)
+    return inside[0] not in ("agents", "viewer", "cli.py") and not shows
 
 
 def only_shows(module: str) -> bool:
