@@ -181,6 +181,7 @@ class DPController:
             self.gains.integral * within_reach
             + self._anti_windup_rate * self._inverse_mass_matrix @ shortfall
         )
+        rate[self._limits == 0.0] = 0.0  # what no actuator can make up for is not summed up
         self._integral_in_goal += self.control_period * _rotated(reading.goal_to_body.T, rate)
 
     def _check_rate(self) -> None:
