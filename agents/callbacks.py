@@ -9,11 +9,11 @@ import numpy as np
 from rich.progress import Progress as ProgressBar
 from rich.progress import TaskID
 
-from dq_marine.agents.extras import extra_needed
 from dq_marine.agents.learners import Model, save_model
 from dq_marine.agents.run_folder import Kind, Progress, RunFolder
+from dq_marine.extras import extra_needed
 
-with extra_needed("training"):
+with extra_needed("training", "agents"):
     from stable_baselines3.common.callbacks import BaseCallback, EvalCallback
     from stable_baselines3.common.vec_env import VecEnv
 

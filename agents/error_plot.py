@@ -11,10 +11,10 @@ import numpy as np
 
 from dq_marine.agents.atomic import replacing_file
 from dq_marine.agents.episodes import SETTLED_ATTITUDE, SETTLED_POSITION, Array, Episode
-from dq_marine.agents.extras import extra_needed
 from dq_marine.errors import InvalidInputError
+from dq_marine.extras import extra_needed
 
-with extra_needed("plotting"):
+with extra_needed("plotting", "agents"):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

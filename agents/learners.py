@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from dq_marine.agents.environments import make_environments
-from dq_marine.agents.extras import extra_needed
 from dq_marine.agents.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
 from dq_marine.agents.settings import PPOSettings, SACSettings, TrainingSettings
 from dq_marine.agents.vec_env import MarineVecEnv
 from dq_marine.envs.vector_env import DQMarineVectorEnv
 from dq_marine.errors import InvalidInputError
+from dq_marine.extras import extra_needed
 
-with extra_needed("training"):
+with extra_needed("training", "agents"):
     import torch
     from stable_baselines3 import PPO, SAC
     from stable_baselines3.common.base_class import BaseAlgorithm

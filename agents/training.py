@@ -16,15 +16,15 @@ from rich.table import Table
 from dq_marine.agents.callbacks import Checkpoints, Evaluations, ProgressUpdates, Saver
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation import Score, evaluate
-from dq_marine.agents.extras import extra_needed
 from dq_marine.agents.learners import Model, environments_of, load_model, make_evaluation_envs, make_model
 from dq_marine.agents.policies import Agent
 from dq_marine.agents.run_folder import RunFolder, RunPlan
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.trained_policy import TrainedPolicy
 from dq_marine.errors import InvalidInputError
+from dq_marine.extras import extra_needed
 
-with extra_needed("training"):
+with extra_needed("training", "agents"):
     import torch
 
     importlib.import_module("tensorboard")  # SB3 imports it when it begins to log

@@ -11,11 +11,11 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
-from dq_marine.agents.extras import extra_needed
 from dq_marine.envs.vector_env import DQMarineVectorEnv
 from dq_marine.errors import InvalidInputError
+from dq_marine.extras import extra_needed
 
-with extra_needed("training"):
+with extra_needed("training", "agents"):
     from stable_baselines3.common.vec_env import VecEnv
     from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvStepReturn
 

@@ -22,27 +22,12 @@ import gymnasium as gym
 import numpy as np
 
 import dq_marine  # noqa: F401 - registers the environments
+from dq_marine.report.lean_scenes import changed, neutral
 from dq_marine.scene import Scene
-from dq_marine.vehicles import Vehicle, load_vehicle
+from dq_marine.vehicles import load_vehicle
 
 ROUNDS = 15
 STEPS = 5_000  # 100 s: a heavy body without damping does not fall fast yet
-
-
-def neutral(vehicle: Vehicle) -> Vehicle:
-    """Return the vehicle with neither weight, righting moment nor damping."""
-    volume = vehicle.rigid_body.mass / vehicle.buoyancy.water_density
-    content = vehicle.model_dump()
-    content["buoyancy"] |= {"volume": volume, "center": vehicle.rigid_body.center_of_mass}
-    content["damping"] = {"linear": [0.0] * 6, "quadratic": [0.0] * 6}
-    return Vehicle.model_validate(content)
-
-
-def changed(vehicle: Vehicle, table: str, **entries: object) -> Vehicle:
-    """Return the vehicle with some entries of one of its tables replaced."""
-    content = vehicle.model_dump()
-    content[table] |= entries
-    return Vehicle.model_validate(content)
 
 
 def physics(scene: Scene) -> Callable[[], float]:

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from one_body_rate import changed, neutral
 
 from dq_marine.engines.batch import Batch
+from dq_marine.report.lean_scenes import changed, neutral
 from dq_marine.scene import Scene, batch_of
 from dq_marine.vehicles import Vehicle, load_vehicle
 

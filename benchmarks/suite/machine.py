@@ -14,6 +14,7 @@ import llvmlite.binding as llvm
 
 from dq_marine.engines.lanes import PRECISIONS, lanes_of
 from dq_marine.engines.workers import usable_cores
+from dq_marine.report.machine import cpu_model
 
 ROOT = Path(__file__).parents[2]
 SOURCES = (
@@ -51,19 +52,6 @@ def machine() -> dict[str, Any]:
         "lanes": {name: lanes_of(name, "strict").width for name in PRECISIONS},
         "system": f"{platform.system()} {platform.machine()}",
     }
-
-
-def cpu_model() -> str:
-    """Return the processor's name."""
-    try:
-        for line in Path("/proc/cpuinfo").read_text().splitlines():
-            if line.startswith("model name"):
-                return line.split(":", 1)[1].strip()
-    except OSError:
-        pass
-    if platform.system() == "Darwin":
-        return said("sysctl", "-n", "machdep.cpu.brand_string") or platform.machine()
-    return platform.processor() or platform.machine()
 
 
 def simd_level() -> str:

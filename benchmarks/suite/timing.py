@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import gc
 import statistics
 import time
-from collections.abc import Callable, Hashable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
+
+from dq_marine.report.timing import no_garbage_collection, rounded
 
 LEAST = 0.02
 """Shortest time [s] that a sample is taken over."""
@@ -111,21 +111,3 @@ def compare(cases: Mapping[Key, Case], rounds: int, progress: Callable[[float], 
                 cores[key] += time.process_time() - used
                 wall[key] += time.perf_counter() - began
     return {key: Timing(tuple(samples[key]), cores[key] / wall[key]) for key in cases}
-
-
-@contextmanager
-def no_garbage_collection() -> Iterator[None]:
-    """Collect garbage now, and not again before the block ends."""
-    gc.collect()
-    enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if enabled:
-            gc.enable()
-
-
-def rounded(number: float) -> float:
-    """Return a number to five digits, more than a timing has."""
-    return float(f"{number:.5g}")

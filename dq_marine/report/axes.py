@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dq_marine.report.extras import extra_needed
+from dq_marine.extras import extra_needed
 from dq_marine.report.presentation import Drawing
 from dq_marine.report.style import INK, SETTINGS, style_of
 
-with extra_needed("the report"):
+with extra_needed("the report", "report"):
     from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

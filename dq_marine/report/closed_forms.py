@@ -12,15 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.extras import extra_needed
 from dq_marine.report.end_state import EndState
-from dq_marine.report.extras import extra_needed
 
 Array = NDArray[np.float64]
 
 
 def special() -> Any:
     """Return SciPy's special functions."""
-    with extra_needed("a closed form"):
+    with extra_needed("a closed form", "report"):
         import scipy.special
 
     return scipy.special

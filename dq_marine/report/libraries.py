@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 
 from dq_marine.engines.compilation import compile_function
 from dq_marine.engines.packing import make_load, pack, store, structure_type
+from dq_marine.extras import extra_needed
 from dq_marine.kernel.inertia import momentum_from_twist, twist_from_momentum
 from dq_marine.kernel.spatial import from_fossen
 from dq_marine.kernel.step import Composition, StepParameters
 from dq_marine.report.cases import Case
 from dq_marine.report.end_state import EndState
-from dq_marine.report.extras import extra_needed
 from dq_marine.report.methods import compose_rival
 from dq_marine.report.mujoco_bodies import Integrator, refusal, run
 from dq_marine.report.ode import end_state, start_of
@@ -86,7 +86,7 @@ def scipy_run(method: str, case: Case, rtol: float) -> LibraryRun:
     Raises:
         MissingDependencyError: SciPy is not installed.
     """
-    with extra_needed("a library's solution"):
+    with extra_needed("a library's solution", "report"):
         from scipy.integrate import solve_ivp
 
     derivative = make_compiled_derivative(case)

@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.errors import MissingDependencyError
+from dq_marine.extras import missing_library
 from dq_marine.report.cases import Case
 from dq_marine.report.closed_forms import quaternion_matrix
 from dq_marine.report.end_state import EndState
@@ -19,8 +19,6 @@ from dq_marine.report.physics import Physics
 
 Array = NDArray[np.float64]
 Integrator: TypeAlias = Literal["Euler", "implicitfast", "RK4"]
-
-INSTALL_COMMAND = 'pip install "dq-marine[bench]"'
 
 MODEL = """
 <mujoco>
@@ -67,10 +65,7 @@ def load(case: Case, integrator: Integrator, step: float) -> tuple[Any, Any, Any
     try:
         mujoco = importlib.import_module("mujoco")
     except ModuleNotFoundError as error:
-        raise MissingDependencyError(
-            f"the comparison with MuJoCo needs {error.name!r}, which is not installed; install it with: "
-            f"{INSTALL_COMMAND}"
-        ) from error
+        raise missing_library("the comparison with MuJoCo", error.name, "bench") from error
     diagonal = np.diag(case.physics.mass_matrix)
     inertia = " ".join(map(repr, diagonal[3:].tolist()))
     text = MODEL.format(step=step, integrator=integrator, mass=float(diagonal[0]), inertia=inertia)

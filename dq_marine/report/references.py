@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 
 from dq_marine.engines.compilation import all_used_functions, cache_directory, constants_of, text_of
 from dq_marine.errors import InvalidInputError
+from dq_marine.extras import extra_needed
 from dq_marine.report import closed_forms, ode
 from dq_marine.report.cases import Case
 from dq_marine.report.end_state import EndState, Errors, errors
-from dq_marine.report.extras import extra_needed
 from dq_marine.report.files import write_json
 
 Array = NDArray[np.float64]
@@ -101,7 +101,7 @@ def key_of(case: Case, times: Sequence[float]) -> str:
 
 def scipy_version() -> str:
     """Return SciPy's version."""
-    with extra_needed("a reference solution"):
+    with extra_needed("a reference solution", "report"):
         import scipy
 
     return str(scipy.__version__)
@@ -192,7 +192,7 @@ def advance(
     Raises:
         RuntimeError: the solver gave up.
     """
-    with extra_needed("a reference solution"):
+    with extra_needed("a reference solution", "report"):
         from scipy.integrate import solve_ivp
 
     settings = {"method": method, "rtol": tolerance, "atol": 0.03 * tolerance}

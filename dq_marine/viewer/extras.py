@@ -7,9 +7,7 @@ import importlib.util
 from pathlib import Path
 from typing import Any
 
-from dq_marine.errors import MissingDependencyError
-
-INSTALL_COMMAND = 'pip install "dq-marine[render]"'
+from dq_marine.extras import missing_library
 
 
 def optional_module(name: str) -> Any:
@@ -21,7 +19,7 @@ def optional_module(name: str) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise _missing(name) from error
+        raise missing_library("drawing", name, "render") from error
 
 
 def meshcat_page_folder() -> Path:
@@ -34,11 +32,5 @@ def meshcat_page_folder() -> Path:
     """
     specification = importlib.util.find_spec("meshcat")
     if specification is None or not specification.submodule_search_locations:
-        raise _missing("meshcat")
+        raise missing_library("drawing", "meshcat", "render")
     return Path(specification.submodule_search_locations[0]) / "viewer" / "dist"
-
-
-def _missing(name: str) -> MissingDependencyError:
-    return MissingDependencyError(
-        f"drawing needs {name!r}, which is not installed; install it with: {INSTALL_COMMAND}"
-    )

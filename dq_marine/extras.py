@@ -1,0 +1,29 @@
+"""The libraries of the extras: imported where they are needed, never before."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from dq_marine.errors import MissingDependencyError
+
+
+def missing_library(purpose: str, library: str | None, extra: str) -> MissingDependencyError:
+    """Return the error that says which library a purpose needs, and the command that installs its extra."""
+    return MissingDependencyError(
+        f"{purpose} needs {library!r}, which is not installed; install it with: "
+        f'pip install "dq-marine[{extra}]"'
+    )
+
+
+@contextmanager
+def extra_needed(purpose: str, extra: str) -> Iterator[None]:
+    """Wrap the imports that a module needs for its purpose.
+
+    Raises:
+        MissingDependencyError: one of them is not installed; the message says how to install the extra.
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        raise missing_library(purpose, error.name, extra) from error
