@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.damping_term import DampingTerm
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
@@ -19,7 +20,7 @@ from dq_marine.kernel.paper_drift import paper_drift, paper_rescue
 from dq_marine.kernel.richardson import RichardsonTiming, make_richardson
 from dq_marine.kernel.step import Advance, Composition, StepParameters
 from dq_marine.kernel.strang import make_strang
-from dq_marine.terms import DampingTerm, ForceTerm, inertia_term, nested_parameters, vector3
+from dq_marine.terms import ForceTerm, inertia_term, nested_parameters, vector3
 
 SCHEMES = {"midpoint": (midpoint_drift, midpoint_rescue), "paper": (paper_drift, paper_rescue)}
 """Schemes by name: the drift, and its rescue."""
@@ -81,13 +82,13 @@ class Assembly:
     @property
     def terms(self) -> tuple[str, ...]:
         """Names of what the step computes besides inertia and the control wrench."""
-        names = [*(force.name for force in self.forces), self.damping.name]
+        names = [*(force.name for force in self.forces), *self.damping.names]
         return tuple(filter(None, [*names, "current" if self.current_ned.any() else ""]))
 
     @property
     def dissipation(self) -> str:
         """What takes energy, or may: damping and velocity forces; empty if nothing does."""
-        names = [self.damping.name, *(force.name for force in self._velocity_forces)]
+        names = [*self.damping.names, *(force.name for force in self._velocity_forces)]
         return ", ".join(filter(None, names))
 
     @property

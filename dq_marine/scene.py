@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from dq_marine.assembly import Assembly
 from dq_marine.checks import finite_array, finite_number
+from dq_marine.damping_term import vehicle_damping
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.dual_quaternion import pose_from_parts
 from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import Composition, StepParameters
-from dq_marine.terms import DampingTerm, ForceTerm, restoring_terms
+from dq_marine.terms import ForceTerm, restoring_terms
 from dq_marine.vehicles import Vehicle, load_vehicle
 from dq_marine.vehicles.restoring import restoring_frequencies
 
@@ -79,9 +80,7 @@ class Scene:
         self.forces = checked_forces(forces)
         self._check_restoring_step()
         mass_matrix = self.vehicle.mass_matrix
-        damping = DampingTerm(
-            self.vehicle.linear_damping, self.vehicle.quadratic_damping, mass_matrix, kick == "l_stable"
-        )
+        damping = vehicle_damping(self.vehicle, l_stable=kick == "l_stable")
         present = (*self._restoring_terms(), *self.forces)
         self._assembly = Assembly(mass_matrix, present, damping, self.current_ned, scheme, order)
         self._check_direction_of_time()

@@ -7,15 +7,18 @@ Craft Hydrodynamics and Motion Control.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from dq_marine.vehicles.cross_flow import CrossFlow
+from dq_marine.vehicles.damping_coupling import DampingCoupling, coupling_tensor
 from dq_marine.vehicles.fields import (
     Matrix3,
     Matrix6,
+    Motion,
     NonNegative6,
     Positive,
     Table,
@@ -27,7 +30,7 @@ from dq_marine.vehicles.plausibility import check_vehicle
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity [m/s^2]."""
 
-MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+MOTIONS: tuple[str, ...] = get_args(Motion)
 """Names of the six axes, in Fossen's order."""
 
 
@@ -67,10 +70,12 @@ class Damping(Table):
     Attributes:
         linear: six numbers or a 6x6 matrix [N s/m, N s, N m s].
         quadratic: coefficients of |nu_i| nu_i [N s^2/m^2, N m s^2].
+        couplings: forces by other velocities and speeds: drag that couples axes, lift.
     """
 
     linear: Matrix6
     quadratic: NonNegative6 = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    couplings: tuple[DampingCoupling, ...] = ()
 
 
 class Limits(Table):
@@ -123,7 +128,8 @@ class Vehicle(Table):
         added_mass: M_A, six numbers or a 6x6 matrix [kg, kg m, kg m^2]; minus the hydrodynamic derivatives.
         added_mass_asymmetry: how far `added_mass` as published is from symmetric, at most: |A_ij - A_ji| over
             sqrt(M_ii M_jj). It must be said where it is more than rounding; the symmetric part is what is used.
-        damping: linear and quadratic.
+        damping: linear and quadratic, with couplings.
+        cross_flow: drag of strips along the hull, besides.
         limits: of the actuators.
         dimensions: overall size.
         thrusters: for drawing.
@@ -137,6 +143,7 @@ class Vehicle(Table):
     added_mass: Matrix6
     added_mass_asymmetry: Annotated[float, Field(ge=0.0, le=0.1)] = 0.0
     damping: Damping
+    cross_flow: tuple[CrossFlow, ...] = ()
     limits: Limits
     dimensions: Dimensions
     thrusters: tuple[Thruster, ...] = ()
@@ -181,6 +188,11 @@ class Vehicle(Table):
     def quadratic_damping(self) -> NDArray[np.float64]:
         """Quadratic damping coefficients, shape (6,)."""
         return np.array(self.damping.quadratic)
+
+    @property
+    def damping_couplings(self) -> NDArray[np.float64]:
+        """C of the forces -sum_jk c_ijk |nu_k| nu_j on axes i, shape (6, 6, 6)."""
+        return coupling_tensor(self.damping.couplings)
 
     @property
     def restoring_arm(self) -> NDArray[np.float64]:

@@ -117,6 +117,9 @@ def terminal_speed(vehicle: Vehicle, axis: int) -> float:
     limit = float(vehicle.wrench_limits[axis])
     linear = float(vehicle.linear_damping[axis, axis])
     quadratic = float(vehicle.quadratic_damping[axis])
+    quadratic += sum(
+        float(drag.own_axis_coefficients(vehicle.buoyancy.water_density)[axis]) for drag in vehicle.cross_flow
+    )
     if limit == 0.0:
         return 0.0
     # The root in the form that stands without a quadratic part.

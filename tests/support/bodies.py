@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from dq_marine.assembly import Assembly
+from dq_marine.damping_term import DampingTerm
 from dq_marine.engines.one_body import OneBody
-from dq_marine.terms import DampingTerm, restoring_terms
+from dq_marine.terms import restoring_terms
 
 
 def random_inertia(rng, condition=20.0, coupled=True):
