@@ -199,6 +199,8 @@ def _check_cross_flow(vehicle: Vehicle) -> None:
                     f"it does not fit a vehicle {reach:.3g} m long (0.001 to {STRIP_REACH:g} lengths)",
                     "give it in m",
                 )
+        if drag.water_density is not None:
+            _check_water_density(f"{field}.water_density", drag.water_density)
         if abs(drag.center) + 0.5 * drag.length > STRIP_REACH * reach:
             raise Implausible(
                 f"{field}.center",
@@ -218,10 +220,14 @@ def _check_density(vehicle: Vehicle) -> None:
             f"the mean density is {ratio:.3g} times that of the water, outside {low:g} to {high:g}",
             "give the mass in kg, the volume in m^3 and the water density in kg/m^3",
         )
-    if not 500.0 <= vehicle.buoyancy.water_density <= 2000.0:
+    _check_water_density("buoyancy.water_density", vehicle.buoyancy.water_density)
+
+
+def _check_water_density(field: str, density: float) -> None:
+    if not 500.0 <= density <= 2000.0:
         raise Implausible(
-            "buoyancy.water_density",
-            vehicle.buoyancy.water_density,
+            field,
+            density,
             "no water has a density outside 500 to 2000 kg/m^3",
             "give it in kg/m^3",
         )
