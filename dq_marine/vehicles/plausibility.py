@@ -12,6 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.vehicles.coupling import asymmetry
+from dq_marine.vehicles.damping_plausibility import check_damping
+from dq_marine.vehicles.implausible import Implausible as Implausible
+from dq_marine.vehicles.implausible import check_water_density
 
 if TYPE_CHECKING:
     from dq_marine.vehicles.model import Vehicle
@@ -21,19 +24,7 @@ DENSITY_RANGE = (0.05, 25.0)  # mean density over that of water
 ADDED_MASS_LIMIT = 50.0  # largest added over rigid-body mass, seen along a flat plate's normal
 ACCELERATION_LIMIT = 500.0  # largest force over mass [m/s^2]
 BOX_FILL_RANGE = (0.002, 3.0)  # displaced volume over length x width x height
-STRIP_REACH = 1.5  # strips lie within this many overall lengths of the origin
 REACH = 1.0  # centres lie within this many overall lengths of the origin
-
-
-class Implausible(ValueError):  # noqa: N818 - reported by pydantic, which wants a ValueError
-    """A field contradicts physics, or another field, by more than any real vehicle would."""
-
-    def __init__(self, field: str, value: object, problem: str, remedy: str) -> None:
-        self.field = field
-        self.value = value
-        self.problem = problem
-        self.remedy = remedy
-        super().__init__(f"{problem}; {remedy}")
 
 
 def check_vehicle(vehicle: Vehicle) -> None:
@@ -49,9 +40,7 @@ def check_vehicle(vehicle: Vehicle) -> None:
     _check_rigid_inertia(vehicle)
     _check_added_mass_symmetry(vehicle)
     _check_mass_matrix(vehicle)
-    _check_dissipative(vehicle)
-    _check_couplings(vehicle)
-    _check_cross_flow(vehicle)
+    check_damping(vehicle)
     _check_added_mass_size(vehicle)
     _check_limits(vehicle)
     _check_thrusters(vehicle)
@@ -146,70 +135,6 @@ def _check_mass_matrix(vehicle: Vehicle) -> None:
         )
 
 
-def _check_dissipative(vehicle: Vehicle) -> None:
-    linear = vehicle.linear_damping
-    smallest = float(np.linalg.eigvalsh(0.5 * (linear + linear.T)).min())
-    if smallest < -1e-9 * float(np.abs(linear).max()):
-        raise Implausible(
-            "damping.linear",
-            f"smallest eigenvalue of its symmetric part = {smallest:.4g}",
-            "the linear damping feeds energy in",
-            "write damping positive: minus the derivatives X_u, Y_v, ...",
-        )
-
-
-def _check_couplings(vehicle: Vehicle) -> None:
-    seen: set[tuple[int, int, int]] = set()
-    for number, coupling in enumerate(vehicle.damping.couplings):
-        field, indices = f"damping.couplings.{number}", coupling.indices
-        named = f"{coupling.force} by |{coupling.speed}| {coupling.velocity}"
-        if indices in seen:
-            raise Implausible(field, named, "it is given twice", "write one entry with the sum")
-        seen.add(indices)
-        if len(set(indices)) == 1:
-            axis = indices[0]
-            raise Implausible(
-                field, named, "this is damping in one axis", f"write it into damping.quadratic[{axis}]"
-            )
-        if coupling.force == coupling.velocity and coupling.coefficient < 0.0:
-            raise Implausible(
-                f"{field}.coefficient",
-                coupling.coefficient,
-                f"a force in {coupling.force} along its own velocity feeds energy in",
-                "write damping positive: minus the derivatives Y_uv, M_uq, ...",
-            )
-
-
-def _check_cross_flow(vehicle: Vehicle) -> None:
-    reach = max(vehicle.dimensions.length, vehicle.dimensions.width, vehicle.dimensions.height)
-    for number, drag in enumerate(vehicle.cross_flow):
-        field = f"cross_flow.{number}"
-        if (drag.drag_coefficient is None) == (drag.beam is None):
-            raise Implausible(
-                field,
-                f"drag_coefficient {drag.drag_coefficient}, beam {drag.beam}",
-                "the drag of a strip is given by one of the two",
-                "give drag_coefficient, or beam for Hoerner's curve at beam / (2 depth)",
-            )
-        for part, extent in (("length", drag.length), ("depth", drag.depth)):
-            if not 0.001 * reach <= extent <= STRIP_REACH * reach:
-                raise Implausible(
-                    f"{field}.{part}",
-                    extent,
-                    f"it does not fit a vehicle {reach:.3g} m long (0.001 to {STRIP_REACH:g} lengths)",
-                    "give it in m",
-                )
-        if drag.water_density is not None:
-            _check_water_density(f"{field}.water_density", drag.water_density)
-        if abs(drag.center) + 0.5 * drag.length > STRIP_REACH * reach:
-            raise Implausible(
-                f"{field}.center",
-                drag.center,
-                f"strips reach more than {STRIP_REACH:g} lengths of the vehicle, {reach:.3g} m, from the origin",
-                "give it in m from the body origin",
-            )
-
-
 def _check_density(vehicle: Vehicle) -> None:
     ratio = vehicle.rigid_body.mass / (vehicle.buoyancy.volume * vehicle.buoyancy.water_density)
     low, high = DENSITY_RANGE
@@ -220,17 +145,7 @@ def _check_density(vehicle: Vehicle) -> None:
             f"the mean density is {ratio:.3g} times that of the water, outside {low:g} to {high:g}",
             "give the mass in kg, the volume in m^3 and the water density in kg/m^3",
         )
-    _check_water_density("buoyancy.water_density", vehicle.buoyancy.water_density)
-
-
-def _check_water_density(field: str, density: float) -> None:
-    if not 500.0 <= density <= 2000.0:
-        raise Implausible(
-            field,
-            density,
-            "no water has a density outside 500 to 2000 kg/m^3",
-            "give it in kg/m^3",
-        )
+    check_water_density("buoyancy.water_density", vehicle.buoyancy.water_density)
 
 
 def _check_dimensions(vehicle: Vehicle) -> None:
