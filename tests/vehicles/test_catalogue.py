@@ -62,7 +62,12 @@ def test_npsauv_has_the_published_numbers():
         m[3:, 3:] - added[3:, 3:], [[2038, 13.58, 13.58], [13.58, 13587, 13.58], [13.58, 13.58, 13587]]
     )
     assert vehicle.weight == pytest.approx(53400.0)
-    assert Scene(vehicle).terms == ("righting moment", "diagonal linear and quadratic damping")
+    assert Scene(vehicle).terms == (
+        "righting moment",
+        "diagonal linear and quadratic damping",
+        "damping couplings",
+        "cross-flow drag",
+    )
 
 
 @pytest.mark.parametrize("name", vehicle_names())

@@ -118,20 +118,30 @@ def test_a_wrong_file_is_refused(tmp_path, mistake):
     assert remedy in str(caught.value)
 
 
-# REMUS 100
+# The catalogue's AUVs
 
 # Prestero (2001): totals of added mass and lift, in body axes. Force, velocity, coefficient of u times it.
-PUBLISHED = {
+REMUS = {
     "Y_uv": (1, 1, -28.6), "Z_uw": (2, 2, -28.6), "N_uv": (5, 1, -24.0), "M_uw": (4, 2, 24.0),
     "Y_ur": (1, 5, 5.22), "Z_uq": (2, 4, -5.22), "M_uq": (4, 4, -2.0), "N_ur": (5, 5, -2.0),
 }  # fmt: skip
 
+# Healey & Lienard (1993), made dimensional with 1025 kg/m^3 and 5.3 m: powers of L for forces by velocities, forces by
+# rates and moments by velocities, moments by rates.
+FORCE, MIXED, MOMENT = (0.5 * 1025.0 * 5.3**power for power in (2, 3, 4))
+NPS = {
+    "Y_uv": (1, 1, -0.1 * FORCE), "Z_uw": (2, 2, -0.3 * FORCE), "Y_up": (1, 3, 3e-3 * MIXED),
+    "Y_ur": (1, 5, 3e-2 * MIXED), "Z_uq": (2, 4, -0.14 * MIXED), "K_uv": (3, 1, 3.1e-3 * MIXED),
+    "M_uw": (4, 2, 0.1 * MIXED), "N_uv": (5, 1, -7.4e-3 * MIXED), "K_up": (3, 3, -1.1e-2 * MOMENT),
+    "K_ur": (3, 5, -8.4e-4 * MOMENT), "M_uq": (4, 4, -6.8e-2 * MOMENT), "N_up": (5, 3, -8.4e-4 * MOMENT),
+    "N_ur": (5, 5, -1.6e-2 * MOMENT),
+}  # fmt: skip
 
-@pytest.mark.parametrize("name", PUBLISHED)
-def test_added_mass_and_lift_of_remus_together_are_the_published(name):
+
+@pytest.mark.parametrize(("name", "published"), [("remus100", REMUS), ("npsauv", NPS)])
+def test_added_mass_and_lift_together_are_the_published(name, published):
     """The first from Kirchhoff's equations with M_A, by differences; so nothing is counted twice."""
-    force, velocity, published = PUBLISHED[name]
-    vehicle = load_vehicle("remus100")
+    vehicle = load_vehicle(name)
     added = np.array(vehicle.added_mass)
     ahead = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 
@@ -139,9 +149,11 @@ def test_added_mass_and_lift_of_remus_together_are_the_published(name):
         lift = np.einsum("ij,j->i", vehicle.damping_couplings[:, :, 0] * abs(nu[0]), nu)
         return -coriolis(added, nu) @ nu - lift
 
-    step = np.eye(6)[velocity]
-    total = (wrench(ahead + step) - wrench(ahead - step)) / 2.0
-    assert total[force] == pytest.approx(published, abs=1e-9)
+    totals = np.column_stack([(wrench(ahead + e) - wrench(ahead - e)) / 2.0 for e in np.eye(6)])
+    expected = np.zeros((6, 6))
+    for force, velocity, value in published.values():
+        expected[force, velocity] = value
+    assert np.allclose(totals[:, 1:], expected[:, 1:], rtol=2e-5, atol=1e-9)
 
 
 def growth_on_course(vehicle, couplings, speed):
@@ -159,6 +171,13 @@ def growth_on_course(vehicle, couplings, speed):
     slopes = [(wrench(ahead + d) - wrench(ahead - d)) / (2.0 * width) for d in width * np.eye(6)]
     both = np.ix_([1, 5], [1, 5])
     return float(np.linalg.eigvals(np.linalg.solve(m[both], np.column_stack(slopes)[both])).real.max())
+
+
+def test_lift_makes_the_nps_auv_stable_on_course():
+    vehicle = load_vehicle("npsauv")
+    for speed in (0.5, 1.9):
+        assert growth_on_course(vehicle, vehicle.damping_couplings, speed) < 0.0
+        assert growth_on_course(vehicle, np.zeros((6, 6, 6)), speed) > 0.0
 
 
 def test_lift_halves_the_instability_of_remus_on_course():
