@@ -11,7 +11,8 @@ f = dm/de = (e + r)/(2 r), between 0 and 1, dm/dr = f (1 - f).
 
 The reach r = (1/2) sqrt((H d_z)^2 + c^2 ((a d_x)^2 + (b d_y)^2)) of a column of height H and cross-section a b has one
 free number: c^2 = 1/(6 f (1 - f)) with the fraction f at rest gives each column the second moment a^3 b/12 of its
-waterplane. Upright, the stiffness of a wall-sided hull is then exact with any number of columns.
+waterplane. Upright, the stiffness of a wall-sided hull is then exact with any number of columns. What the surface does
+to inertia and damping is not in this force: a body out of the water keeps both.
 """
 
 from __future__ import annotations
