@@ -16,9 +16,9 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.dual_quaternion import pose_from_parts
 from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import Composition, StepParameters
-from dq_marine.terms import ForceTerm, restoring_terms
+from dq_marine.restoring_terms import checked_hydrostatics, hydrostatic_terms, natural_frequencies
+from dq_marine.terms import ForceTerm
 from dq_marine.vehicles import Vehicle, load_vehicle
-from dq_marine.vehicles.restoring import restoring_frequencies
 
 if TYPE_CHECKING:
     from dq_marine.engines.batch import Batch
@@ -26,9 +26,6 @@ if TYPE_CHECKING:
 
 KICKS = ("l_stable", "implicit_node")
 """How damping is taken in, by name."""
-
-NEUTRAL_TOLERANCE = 1e-9
-"""Net weight over weight, and righting arm over the vehicle's length, below which a term counts as absent."""
 
 
 class Scene:
@@ -42,6 +39,7 @@ class Scene:
         current_ned: velocity of the water [m/s], shape (3,).
         step: step size h [s].
         kick: how damping is taken in.
+        hydrostatics: how buoyancy is computed.
         forces: of the user's own.
     """
 
@@ -54,6 +52,7 @@ class Scene:
         step: float = 0.02,
         order: int = 2,
         kick: str = "l_stable",
+        hydrostatics: str = "linear",
         forces: Sequence[ForceTerm] = (),
     ) -> None:
         """Check and compose the scene.
@@ -65,6 +64,9 @@ class Scene:
             step: step size h [s]; negative runs time backwards, in a scene that takes no energy.
             order: of the method: 2 or 4, and 6 or 8 in a scene that takes no energy.
             kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
+            hydrostatics: "linear": of a vessel that floats, its waterplane's restoring force for small motions, and of
+                any other, weight and buoyancy under water; or "hull": buoyancy of the boxes of its hull at any depth
+                and attitude, so that it may capsize, dive or leave the water.
             forces: of your own, see `dq_marine.terms.ForceTerm`.
 
         Raises:
@@ -77,11 +79,12 @@ class Scene:
         if kick not in KICKS:
             raise InvalidInputError(f"kick = {kick!r} is unknown; give one of {list(KICKS)}")
         self.kick = kick
+        self.hydrostatics = checked_hydrostatics(hydrostatics, self.vehicle)
         self.forces = checked_forces(forces)
         self._check_restoring_step()
         mass_matrix = self.vehicle.mass_matrix
         damping = vehicle_damping(self.vehicle, l_stable=kick == "l_stable")
-        present = (*self._restoring_terms(), *self.forces)
+        present = (*hydrostatic_terms(self.vehicle, self.hydrostatics), *self.forces)
         self._assembly = Assembly(mass_matrix, present, damping, self.current_ned, scheme, order)
         self._check_direction_of_time()
 
@@ -90,7 +93,7 @@ class Scene:
         terms = ", ".join(self.terms) or "nothing"
         return (
             f"Scene({self.vehicle.name!r}, current={current}, scheme={self.scheme!r}, step={self.step:g}, "
-            f"order={self.order}, kick={self.kick!r}; computes {terms})"
+            f"order={self.order}, kick={self.kick!r}, hydrostatics={self.hydrostatics!r}; computes {terms})"
         )
 
     def __reduce__(self) -> Any:
@@ -102,6 +105,7 @@ class Scene:
             "step": self.step,
             "order": self.order,
             "kick": self.kick,
+            "hydrostatics": self.hydrostatics,
             "forces": self.forces,
         }
         return _rebuild, (arguments,)
@@ -162,19 +166,10 @@ class Scene:
     def restoring_frequencies(self) -> NDArray[np.float64]:
         """Undamped natural angular frequencies [rad/s] about the stable upright or inverted attitude, shape (2,).
 
-        Eigenfrequencies of roll and pitch with the other axes free to follow, from the full M.
+        Eigenfrequencies of roll and pitch with the other axes free to follow, from the full M. Shape (3,), heave
+        included, of a vessel that floats.
         """
-        return restoring_frequencies(self.vehicle)
-
-    def _restoring_terms(self) -> tuple[ForceTerm, ...]:
-        """Return the restoring forces, without those that are zero but for round-off."""
-        vehicle = self.vehicle
-        excess, arm = vehicle.weight - vehicle.buoyant_force, vehicle.restoring_arm
-        if abs(excess) <= NEUTRAL_TOLERANCE * vehicle.weight:
-            excess = 0.0
-        if np.abs(arm).max() <= NEUTRAL_TOLERANCE * vehicle.weight * vehicle.dimensions.length:
-            arm = np.zeros(3)
-        return restoring_terms(excess, arm)
+        return natural_frequencies(self.vehicle, self.hydrostatics)
 
     def _check_direction_of_time(self) -> None:
         if self.step == 0.0:
@@ -188,11 +183,11 @@ class Scene:
             )
 
     def _check_restoring_step(self) -> None:
-        """The restoring moment is explicit at the node: stable for h omega < 2."""
+        """Restoring forces are explicit at the node: stable for h omega < 2."""
         fastest = float(self.restoring_frequencies.max())
         if abs(self.step) * fastest >= 2.0:
             raise InvalidInputError(
-                f"step = {self.step:g} s is too large for the restoring moment: h omega = "
+                f"step = {self.step:g} s is too large for the restoring forces: h omega = "
                 f"{self.step * fastest:.3g} with omega = {fastest:.3g} rad/s must stay below 2; give a step "
                 f"below {2.0 / fastest:.3g} s (0.1 of it for accuracy)"
             )

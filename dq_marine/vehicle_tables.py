@@ -82,7 +82,10 @@ def _masses(sheet: Sheet) -> list[tuple[str, str]]:
 
 
 def _motions(sheet: Sheet) -> list[tuple[str, str]]:
+    floats = math.isfinite(sheet.heave_period)
+    heave = [("natural period of heave", f"{_number(sheet.heave_period)} s")] if floats else []
     return [
+        *heave,
         ("natural period of roll, pitch", f"{_number(sheet.roll_period)} s, {_number(sheet.pitch_period)} s"),
         *((f"terminal speed in {motion}", _terminal(sheet, motion)) for motion in MOTIONS),
     ]
@@ -92,7 +95,7 @@ def _steps(sheet: Sheet) -> list[tuple[str, str]]:
     ahead = f"at {sheet.speed:g} m/s ahead"
     return [
         (f"Munk growth rate {ahead}, undamped", f"{_number(sheet.munk_growth_rate)} 1/s"),
-        ("largest step for the righting moment", f"{_number(sheet.restoring_step)} s"),
+        ("largest step for the restoring forces", f"{_number(sheet.restoring_step)} s"),
         (f"largest step for translation {ahead}", f"{_number(sheet.translation_step)} s"),
         ("largest step: a tenth of it is accurate", f"{_number(sheet.largest_step)} s"),
     ]

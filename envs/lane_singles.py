@@ -152,4 +152,9 @@ def made_singles(
                 f"vehicle[{index}] has terms {list(single.scene.terms)} and axes {single.actuated_axes}, vehicle[0] "
                 f"{list(first.scene.terms)} and {first.actuated_axes}; they must not differ"
             )
+        if single.observation_space != first.observation_space:
+            raise InvalidInputError(
+                f"vehicle[{index}] and vehicle[0] differ in what bounds their observations, as their lengths do; give "
+                "all the same workspace_radius"
+            )
     return singles

@@ -21,10 +21,20 @@ from dq_marine.envs.vector_env import DQMarineVectorEnv
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.quaternion import Quaternion
 from dq_marine.kernel.vector3 import Vector3
-from dq_marine.vehicles import Vehicle
+from dq_marine.vehicles import Vehicle, load_vehicle
 
 LARGEST_WORKSPACE = 1e4
 """Largest radius of the workspace [m]."""
+
+LONG_VEHICLE = 1.5
+"""Length [m] up to which radii that are not given are those below; beyond it they grow with the length."""
+
+START_RADIUS = 2.0
+WORKSPACE_RADIUS = 6.0
+"""Of vehicles that are not long [m]."""
+
+GOAL_DEPTH = 5.0
+"""Of vehicles that do not float, where no goal is given [m]."""
 
 SUCCESS_POSITION = 0.1
 """On station: distance to the goal [m] below which, with `SUCCESS_ATTITUDE`, `is_success` is True."""
@@ -94,9 +104,9 @@ class StationKeepingEnv(MarineEnv):
         substeps: int = 4,
         scheme: str = "midpoint",
         reward: StationKeepingReward | Mapping[str, float] | None = None,
-        goal_position: Sequence[float] = (0.0, 0.0, 5.0),
-        start_radius: float = 2.0,
-        workspace_radius: float = 6.0,
+        goal_position: Sequence[float] | None = None,
+        start_radius: float | None = None,
+        workspace_radius: float | None = None,
         render_mode: str | None = None,
         record: bool = False,
     ) -> None:
@@ -110,9 +120,10 @@ class StationKeepingEnv(MarineEnv):
             substeps: integrator steps in a control period.
             scheme: the integrator's drift, by name.
             reward: weights and widths, as a `StationKeepingReward` or a dictionary of its fields.
-            goal_position: in NED [m].
-            start_radius: episodes start within this distance of the goal [m], one in ten at the goal itself.
-            workspace_radius: episodes end beyond this distance from the goal [m].
+            goal_position: in NED [m]; None for (0, 0, 5), or where a vessel that floats is at rest.
+            start_radius: episodes start within this distance of the goal [m], one in ten at the goal itself; a vessel
+                that floats starts level with it. None for 2 m, growing with the length of vehicles above 1.5 m.
+            workspace_radius: episodes end beyond this distance from the goal [m]; None for 6 m, growing likewise.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.
 
@@ -121,9 +132,13 @@ class StationKeepingEnv(MarineEnv):
             VehicleFileError: the vehicle file is wrong.
         """
         self.reward = _reward(reward)
-        self.goal_position_ned = finite_array("goal_position", goal_position, 3)
-        self.start_radius = finite_number("start_radius", start_radius)
-        self.workspace_radius = finite_number("workspace_radius", workspace_radius, above=0.0)
+        loaded = load_vehicle(vehicle)
+        goal = _default_goal(loaded) if goal_position is None else goal_position
+        self.goal_position_ned = finite_array("goal_position", goal, 3)
+        workspace = _default_workspace(loaded) if workspace_radius is None else workspace_radius
+        self.workspace_radius = finite_number("workspace_radius", workspace, above=0.0)
+        start = _default_start(loaded, self.workspace_radius) if start_radius is None else start_radius
+        self.start_radius = finite_number("start_radius", start)
         if self.workspace_radius > LARGEST_WORKSPACE:
             raise InvalidInputError(
                 f"workspace_radius = {self.workspace_radius:g} m; give at most {LARGEST_WORKSPACE:g} m, within which "
@@ -135,7 +150,7 @@ class StationKeepingEnv(MarineEnv):
                 f"{self.workspace_radius:g} m"
             )
         super().__init__(
-            vehicle,
+            loaded,
             current=current,
             control_period=control_period,
             substeps=substeps,
@@ -171,6 +186,7 @@ class StationKeepingEnv(MarineEnv):
             (x, y, z),
             (q0, q1, q2, q3),
             self.start_radius,
+            1.0 if self.vehicle.hydrostatics is None else 0.0,
             self.workspace_radius,
             self.control_period,
             tuple(limits.tolist()),
@@ -186,6 +202,24 @@ class StationKeepingEnv(MarineEnv):
         """Whether the vehicle is on station."""
         near = measures["position_error"] < SUCCESS_POSITION
         return near & (measures["attitude_error"] < SUCCESS_ATTITUDE)
+
+
+def _default_goal(vehicle: Vehicle) -> tuple[float, float, float]:
+    return (0.0, 0.0, GOAL_DEPTH if vehicle.hydrostatics is None else vehicle.equilibrium_depth)
+
+
+def _default_workspace(vehicle: Vehicle) -> float:
+    return min(LARGEST_WORKSPACE, WORKSPACE_RADIUS * _lengths(vehicle))
+
+
+def _default_start(vehicle: Vehicle, workspace_radius: float) -> float:
+    """Return the default start radius [m], that of a short vehicle where the workspace is too small for more."""
+    return min(START_RADIUS * _lengths(vehicle), max(START_RADIUS, workspace_radius / 3.0))
+
+
+def _lengths(vehicle: Vehicle) -> float:
+    """Return the vehicle's length over `LONG_VEHICLE`, 1 at least."""
+    return max(1.0, vehicle.dimensions.length / LONG_VEHICLE)
 
 
 def _reward(reward: StationKeepingReward | Mapping[str, float] | None) -> StationKeepingReward:

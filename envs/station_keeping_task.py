@@ -57,6 +57,7 @@ class Aim(NamedTuple):
         position_ned: of the goal [m].
         attitude: of the goal, body to NED.
         start_radius: of the ball about the goal in which episodes start [m].
+        start_height: of that ball along the vertical, over its radius: 1, or 0 where starts are level with the goal.
         workspace_radius: distance from the goal [m] beyond which the episode ends.
         period: control period [s].
         wrench_limits: wrench at full action.
@@ -67,6 +68,7 @@ class Aim(NamedTuple):
     position_ned: Vector3
     attitude: Quaternion
     start_radius: float
+    start_height: float
     workspace_radius: float
     period: float
     wrench_limits: tuple[float, float, float, float, float, float]
@@ -89,7 +91,7 @@ def start(aim: Aim, uniforms: tuple[float, ...]) -> Start:
     height = 2.0 * uniforms[1] - 1.0
     azimuth = math.pi * (2.0 * uniforms[2] - 1.0)
     across = math.sqrt(1.0 - height * height)
-    direction = (across * math.cos(azimuth), across * math.sin(azimuth), height)
+    direction = (across * math.cos(azimuth), across * math.sin(azimuth), aim.start_height * height)
     distance = aim.start_radius * uniforms[3] ** (1.0 / 3.0)
     attitude = quaternion_from_euler(
         LARGEST_TILT * (2.0 * uniforms[4] - 1.0),

@@ -25,6 +25,7 @@ from dq_marine.vehicles.fields import (
     Vector3,
     Vector6,
 )
+from dq_marine.vehicles.hydrostatics import HullBox, Hydrostatics, Load
 from dq_marine.vehicles.plausibility import check_vehicle
 
 STANDARD_GRAVITY = 9.81
@@ -95,13 +96,15 @@ class Dimensions(Table):
         length: along x [m].
         width: along y [m].
         height: along z [m].
+        draft: depth of the keel below the body origin [m], for drawing; half the height if left out.
         shape: the kind of hull to draw.
     """
 
     length: Positive
     width: Positive
     height: Positive
-    shape: Literal["open_frame", "torpedo", "ellipsoid"]
+    draft: Positive | None = None
+    shape: Literal["open_frame", "torpedo", "ellipsoid", "catamaran", "ship"]
 
 
 class Thruster(Table):
@@ -133,6 +136,9 @@ class Vehicle(Table):
         limits: of the actuators.
         dimensions: overall size.
         thrusters: for drawing.
+        hydrostatics: of a vessel that floats; None for one that is under water altogether.
+        hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
+        loads: weights that act besides.
     """
 
     name: str = Field(min_length=1)
@@ -147,6 +153,9 @@ class Vehicle(Table):
     limits: Limits
     dimensions: Dimensions
     thrusters: tuple[Thruster, ...] = ()
+    hydrostatics: Hydrostatics | None = None
+    hull: tuple[HullBox, ...] = ()
+    loads: tuple[Load, ...] = ()
 
     @model_validator(mode="after")
     def _plausible(self) -> Self:
@@ -159,9 +168,37 @@ class Vehicle(Table):
         return self.rigid_body.mass * STANDARD_GRAVITY
 
     @property
+    def specific_weight(self) -> float:
+        """Of the water, rho g [N/m^3]."""
+        return self.buoyancy.water_density * STANDARD_GRAVITY
+
+    @property
     def buoyant_force(self) -> float:
         """B = rho g V [N]."""
-        return self.buoyancy.water_density * STANDARD_GRAVITY * self.buoyancy.volume
+        return self.specific_weight * self.buoyancy.volume
+
+    @property
+    def waterplane_stiffness(self) -> NDArray[np.float64] | None:
+        """C of heave, roll and pitch about the body origin, shape (3, 3) [N/m, N, N m]; None if it does not float."""
+        if self.hydrostatics is None:
+            return None
+        return self.hydrostatics.stiffness_about_origin(self.specific_weight, self.buoyant_force)
+
+    @property
+    def equilibrium_depth(self) -> float:
+        """Depth of the body origin of a vessel at rest [m]; 0 if it does not float."""
+        return 0.0 if self.hydrostatics is None else self.hydrostatics.equilibrium_depth
+
+    @property
+    def load_weight(self) -> float:
+        """Of all loads [N]."""
+        return STANDARD_GRAVITY * sum(load.mass for load in self.loads)
+
+    @property
+    def load_arm(self) -> NDArray[np.float64]:
+        """First moment of the loads' weights about the body origin [N m], shape (3,)."""
+        moments = [load.mass * np.array(load.position) for load in self.loads]
+        return np.asarray(STANDARD_GRAVITY * np.sum([np.zeros(3), *moments], axis=0))
 
     @property
     def rigid_body_matrix(self) -> NDArray[np.float64]:

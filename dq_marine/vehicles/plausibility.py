@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from dq_marine.vehicles.coupling import asymmetry
 from dq_marine.vehicles.damping_plausibility import check_damping
+from dq_marine.vehicles.floating_plausibility import check_floating
 from dq_marine.vehicles.implausible import Implausible as Implausible
 from dq_marine.vehicles.implausible import check_water_density
 
@@ -24,6 +25,7 @@ DENSITY_RANGE = (0.05, 25.0)  # mean density over that of water
 ADDED_MASS_LIMIT = 50.0  # largest added over rigid-body mass, seen along a flat plate's normal
 ACCELERATION_LIMIT = 500.0  # largest force over mass [m/s^2]
 BOX_FILL_RANGE = (0.002, 3.0)  # displaced volume over length x width x height
+TRIANGLE_TOLERANCE = 0.02  # of the largest moment: published ships have rounded radii of gyration
 REACH = 1.0  # centres lie within this many overall lengths of the origin
 
 
@@ -44,6 +46,7 @@ def check_vehicle(vehicle: Vehicle) -> None:
     _check_added_mass_size(vehicle)
     _check_limits(vehicle)
     _check_thrusters(vehicle)
+    check_floating(vehicle)
 
 
 def _check_inertia_symmetry(vehicle: Vehicle) -> None:
@@ -104,7 +107,7 @@ def _check_rigid_inertia(vehicle: Vehicle) -> None:
     if body.inertia_about == "body_origin":
         about_com = about_com - mass * (center @ center * np.eye(3) - np.outer(center, center))
     moments = np.linalg.eigvalsh(about_com)
-    if moments[0] <= 0.0 or moments[0] + moments[1] < moments[2] * (1.0 - 1e-9):
+    if moments[0] <= 0.0 or moments[0] + moments[1] < moments[2] * (1.0 - TRIANGLE_TOLERANCE):
         raise Implausible(
             "rigid_body.inertia",
             [float(f"{m:.6g}") for m in moments],

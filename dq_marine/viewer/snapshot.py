@@ -17,7 +17,7 @@ from dq_marine.checks import finite_array, unit_quaternion
 from dq_marine.errors import InvalidInputError
 
 FloatArray = NDArray[np.float64]
-ShapeKind = Literal["open_frame", "torpedo", "ellipsoid"]
+ShapeKind = Literal["open_frame", "torpedo", "ellipsoid", "catamaran", "ship"]
 
 SNAPSHOT_ARRAYS = {
     "position_ned": 3,

@@ -99,7 +99,7 @@ def test_the_largest_restoring_step_is_where_a_scene_refuses(name):
     limit = vehicle_sheet(load_vehicle(name)).restoring_step
     assert limit == pytest.approx(2.0 / restoring_frequencies(load_vehicle(name)).max())
     Scene(name, step=0.999 * limit)
-    with pytest.raises(InvalidInputError, match="too large for the restoring moment"):
+    with pytest.raises(InvalidInputError, match="too large for the restoring forces"):
         Scene(name, step=1.001 * limit)
 
 
