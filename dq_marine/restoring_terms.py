@@ -6,15 +6,22 @@ import numpy as np
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.hull import Columns, make_box_buoyancy
-from dq_marine.kernel.hydrostatics import WaterplaneRestoring, waterplane_restoring
+from dq_marine.kernel.hydrostatics import (
+    WaterplaneRestoring,
+    waterplane_restoring,
+    waterplane_restoring_in_body_axes,
+)
 from dq_marine.terms import Array, ForceTerm, matrix3, restoring_terms
 from dq_marine.vehicles import Vehicle
 from dq_marine.vehicles.flotation import cells_of, hull_stiffness, own_inertia_factor
-from dq_marine.vehicles.hydrostatics import HullBox
+from dq_marine.vehicles.hydrostatics import HullBox, Hydrostatics
 from dq_marine.vehicles.restoring import floating_modes, restoring_frequencies
 
 HYDROSTATICS = ("linear", "hull")
 """How buoyancy is computed, by name: as for small motions about rest, or from the hull at any depth and attitude."""
+
+WATERPLANE_FORCES = {"earth": waterplane_restoring, "body": waterplane_restoring_in_body_axes}
+"""By the axes that the force of a waterplane acts along."""
 
 NEUTRAL_TOLERANCE = 1e-9
 """Net weight over weight, and righting arm over the vehicle's length, below which a term counts as absent."""
@@ -39,8 +46,8 @@ def hydrostatic_terms(vehicle: Vehicle, kind: str) -> tuple[ForceTerm, ...]:
     """Return the forces of weight and buoyancy, without those that are zero but for round-off."""
     if kind == "hull":
         return hull_terms(vehicle)
-    stiffness = vehicle.waterplane_stiffness
-    return submerged_terms(vehicle) if stiffness is None else floating_terms(vehicle, stiffness)
+    floating = vehicle.hydrostatics
+    return submerged_terms(vehicle) if floating is None else floating_terms(vehicle, floating)
 
 
 def submerged_terms(vehicle: Vehicle) -> tuple[ForceTerm, ...]:
@@ -54,11 +61,12 @@ def submerged_terms(vehicle: Vehicle) -> tuple[ForceTerm, ...]:
     return restoring_terms(excess, arm)
 
 
-def floating_terms(vehicle: Vehicle, stiffness: Array) -> tuple[ForceTerm, ...]:
-    """Return the restoring force of a waterplane of some stiffness, shape (3, 3), and of the vehicle's loads."""
+def floating_terms(vehicle: Vehicle, hydrostatics: Hydrostatics) -> tuple[ForceTerm, ...]:
+    """Return the restoring force of a vessel's waterplane, and of its loads."""
+    stiffness = hydrostatics.stiffness_about_origin(vehicle.specific_weight, vehicle.buoyant_force)
     symmetric = matrix3(0.5 * (stiffness + stiffness.T))
-    waterplane = WaterplaneRestoring(symmetric, vehicle.equilibrium_depth)
-    term = ForceTerm("waterplane restoring", waterplane_restoring, waterplane)
+    waterplane = WaterplaneRestoring(symmetric, hydrostatics.equilibrium_depth)
+    term = ForceTerm("waterplane restoring", WATERPLANE_FORCES[hydrostatics.force_axes], waterplane)
     return (term, *restoring_terms(vehicle.load_weight, vehicle.load_arm))
 
 

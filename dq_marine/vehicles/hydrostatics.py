@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self, TypeAlias
+from typing import Annotated, Literal, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,8 @@ class Hydrostatics(Table):
         metacentric_height_transverse: GM_T [m].
         metacentric_height_longitudinal: GM_L [m].
         stiffness: of heave, roll and pitch about the body origin, 3 x 3 [N/m, N, N m].
+        force_axes: "earth": along the vertical, with a potential; or "body": along the axes of the
+            vessel, for models published so: heave on a trimmed vessel then also pushes it along.
     """
 
     equilibrium_depth: float = 0.0
@@ -37,6 +39,7 @@ class Hydrostatics(Table):
     metacentric_height_transverse: float | None = None
     metacentric_height_longitudinal: float | None = None
     stiffness: Matrix3 | None = None
+    force_axes: Literal["earth", "body"] = "earth"
 
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
