@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.actuators import ACTUATIONS, actuation_term
 from dq_marine.assembly import Assembly
 from dq_marine.checks import finite_array, finite_number
 from dq_marine.errors import InvalidInputError
@@ -42,6 +43,7 @@ class Scene:
         step: step size h [s].
         kick: how damping is taken in.
         forces: of the user's own.
+        actuation: what drives the vehicle.
     """
 
     def __init__(
@@ -54,6 +56,7 @@ class Scene:
         order: int = 2,
         kick: str = "l_stable",
         forces: Sequence[ForceTerm] = (),
+        actuation: str = "wrench",
     ) -> None:
         """Check and compose the scene.
 
@@ -65,9 +68,12 @@ class Scene:
             order: of the method: 2 or 4, and 6 or 8 in a scene that takes no energy.
             kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
             forces: of your own, see `dq_marine.terms.ForceTerm`.
+            actuation: "wrench", a force and moment on the body; or "thrusters", the vehicle's thrusters, azimuths and
+                fins, with their limits and lags: see `ActuatedBody.actuate`.
 
         Raises:
-            InvalidInputError: a value is wrong, or the step is too large for the vehicle's restoring forces.
+            InvalidInputError: a value is wrong, the step is too large for the vehicle's restoring forces, or the
+                vehicle has no actuators whose forces are known.
             VehicleFileError: the vehicle file is wrong.
         """
         self.vehicle = load_vehicle(vehicle)
@@ -76,6 +82,9 @@ class Scene:
         if kick not in KICKS:
             raise InvalidInputError(f"kick = {kick!r} is unknown; give one of {list(KICKS)}")
         self.kick = kick
+        if actuation not in ACTUATIONS:
+            raise InvalidInputError(f"actuation = {actuation!r} is unknown; give one of {list(ACTUATIONS)}")
+        self.actuation = actuation
         self.forces = checked_forces(forces)
         self._check_restoring_step()
         mass_matrix = self.vehicle.mass_matrix
@@ -83,7 +92,10 @@ class Scene:
             self.vehicle.linear_damping, self.vehicle.quadratic_damping, mass_matrix, kick == "l_stable"
         )
         present = (*self._restoring_terms(), *self.forces)
-        self._assembly = Assembly(mass_matrix, present, damping, self.current_ned, scheme, order)
+        actuators = actuation_term(self.vehicle) if actuation == "thrusters" else None
+        self._assembly = Assembly(
+            mass_matrix, present, damping, self.current_ned, scheme, order, actuators=actuators
+        )
         self._check_direction_of_time()
 
     def __repr__(self) -> str:
@@ -91,7 +103,7 @@ class Scene:
         terms = ", ".join(self.terms) or "nothing"
         return (
             f"Scene({self.vehicle.name!r}, current={current}, scheme={self.scheme!r}, step={self.step:g}, "
-            f"order={self.order}, kick={self.kick!r}; computes {terms})"
+            f"order={self.order}, kick={self.kick!r}, actuation={self.actuation!r}; computes {terms})"
         )
 
     def __reduce__(self) -> Any:
@@ -104,6 +116,7 @@ class Scene:
             "order": self.order,
             "kick": self.kick,
             "forces": self.forces,
+            "actuation": self.actuation,
         }
         return _rebuild, (arguments,)
 
@@ -132,10 +145,13 @@ class Scene:
         return self._assembly.parameters_at(step)
 
     def stepper(self) -> OneBody:
-        """Return a body at rest at the world's origin, with the step compiled for this scene."""
-        from dq_marine.engines.one_body import OneBody  # here: it imports Numba
+        """Return a body at rest at the world's origin, with the step compiled for this scene.
 
-        return OneBody(self.composition, self.parameters_at, self.step)
+        With `actuation="thrusters"` it is an `ActuatedBody`, whose actuators are at rest, too.
+        """
+        from dq_marine.engines.actuated_body import body_of  # here: it imports Numba
+
+        return body_of(self.composition, self.parameters_at, self.step)
 
     def batch(
         self,
@@ -187,6 +203,11 @@ class Scene:
                 f"step = {self.step:g} s, but there is {self._assembly.dissipation}, which cannot be undone; give a "
                 "positive step, or leave it out"
             )
+        if self.step < 0.0 and self.actuation != "wrench":
+            raise InvalidInputError(
+                f"step = {self.step:g} s, but the lags of actuators cannot be undone; give a positive step, or "
+                'actuation="wrench"'
+            )
 
     def _check_restoring_step(self) -> None:
         """The restoring moment is explicit at the node: stable for h omega < 2."""
@@ -221,7 +242,7 @@ def batch_of(
     Raises:
         InvalidInputError: the scenes differ in their terms or step, or a value is wrong.
     """
-    from dq_marine.engines.batch import Batch  # here: it imports Numba
+    from dq_marine.engines.actuated_batch import batch_type  # here: it imports Numba
 
     if not scenes or (size is not None and len(scenes) not in (1, size)):
         raise InvalidInputError(f"{len(scenes)} scenes for {size} bodies; give one, or one for each body")
@@ -231,7 +252,7 @@ def batch_of(
             "the scenes of a batch differ in what they compute, or in their step; give scenes of equal terms, "
             "scheme, order, kick and step (a term that is zero is left out: give it a tiny value)"
         )
-    return Batch(
+    return batch_type(first.composition)(
         first.composition,
         [scene.parameters_at(scene.step) for scene in scenes],
         first.step,

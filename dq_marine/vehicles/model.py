@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from dq_marine.vehicles.actuators import ActuatorSet, Azimuth, ChannelSheet, Fin, Thruster
 from dq_marine.vehicles.fields import (
     Matrix3,
     Matrix6,
@@ -99,18 +100,6 @@ class Dimensions(Table):
     shape: Literal["open_frame", "torpedo", "ellipsoid"]
 
 
-class Thruster(Table):
-    """Place and direction of one thruster.
-
-    Attributes:
-        position: [m].
-        direction: of the force on the body at positive thrust; need not be of unit length.
-    """
-
-    position: Vector3
-    direction: Vector3
-
-
 class Vehicle(Table):
     """A marine vehicle, as its file describes it.
 
@@ -126,7 +115,9 @@ class Vehicle(Table):
         damping: linear and quadratic.
         limits: of the actuators.
         dimensions: overall size.
-        thrusters: for drawing.
+        thrusters: propellers on fixed axes.
+        azimuths: propellers whose axes turn.
+        fins: rudders and planes.
     """
 
     name: str = Field(min_length=1)
@@ -140,6 +131,8 @@ class Vehicle(Table):
     limits: Limits
     dimensions: Dimensions
     thrusters: tuple[Thruster, ...] = ()
+    azimuths: tuple[Azimuth, ...] = ()
+    fins: tuple[Fin, ...] = ()
 
     @model_validator(mode="after")
     def _plausible(self) -> Self:
@@ -194,6 +187,17 @@ class Vehicle(Table):
         """Largest force and moment of each axis [N, N m], shape (6,)."""
         return np.array(self.limits.wrench)
 
+    @property
+    def actuators(self) -> ActuatorSet:
+        """The actuators whose forces are known: without thrusters that are for drawing only."""
+        driven = tuple(thruster for thruster in self.thrusters if thruster.driven)
+        return ActuatorSet(driven, self.azimuths, self.fins)
+
+    @property
+    def channels(self) -> tuple[ChannelSheet, ...]:
+        """What can be commanded, in the order of commands: thrusters, azimuths (speed, angle), fins."""
+        return self.actuators.channels
+
 
 def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the matrix S(a) with S(a) b = a x b, shape (3, 3)."""
@@ -203,9 +207,11 @@ def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
 __all__ = [
     "MOTIONS",
     "STANDARD_GRAVITY",
+    "Azimuth",
     "Buoyancy",
     "Damping",
     "Dimensions",
+    "Fin",
     "Limits",
     "RigidBody",
     "Thruster",
