@@ -114,7 +114,10 @@ class Assembly:
         return StepParameters(
             inertia=inertia_term(self.mass_matrix),
             damping=self.damping.matrices,
-            forces=(nested_parameters(self._pose_forces(step)), nested_parameters(self._velocity_forces(step))),
+            forces=(
+                nested_parameters(self._pose_forces(step)),
+                nested_parameters(self._velocity_forces(step)),
+            ),
             water=UniformCurrent(vector3(self.current_ned)) if self.current_ned.any() else (),
             timing=self._method.timing(step),
         )

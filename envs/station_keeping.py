@@ -74,8 +74,8 @@ class StationKeepingEnv(MarineEnv):
     """Reach a goal pose and hold it in an unseen current.
 
     Action: Box(-1, 1, (n,)), the thrust and torque of the n actuated axes, in the order surge, sway, heave, roll,
-    pitch, yaw, over the vehicle's limits; or with `actuation="thrusters"` the commands of the n channels of its actuators
-    in the order of `Vehicle.channels`, each over its limit on that side. Beyond the box it saturates.
+    pitch, yaw, over the vehicle's limits; or with `actuation="thrusters"` the commands of the n channels of its
+    actuators in the order of `Vehicle.channels`, each over its limit on that side. Beyond the box it saturates.
 
     Observation: see `station_keeping_task.observe`, 18 numbers in SI units. `info` has `position_error` [m],
     `attitude_error` [rad] and `is_success`; after a refused step also `integration`.

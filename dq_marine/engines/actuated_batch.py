@@ -49,7 +49,9 @@ class ActuatedBatch(Batch):
         self._channels = composition.actuation.channels
         lanes = lanes_of(precision, arithmetic)
         self._value_packing = packing_of(composition.actuation.rest, lanes, lambda path: False)
-        self._values = empty_blocks(self._value_packing, positive_integer("the number of bodies", size), lanes)
+        self._values = empty_blocks(
+            self._value_packing, positive_integer("the number of bodies", size), lanes
+        )
         self._commands = np.zeros((size, self._channels))
         super().__init__(
             composition,

@@ -47,7 +47,9 @@ SMALLEST_FRACTION = 2.0**-20
 """Of the scene's step: the smallest that is tried when an admissible one is sought."""
 
 
-NO_ACTUATORS = 'this scene is driven by wrenches; make it with Scene(..., actuation="thrusters") to command actuators'
+NO_ACTUATORS = (
+    'this scene is driven by wrenches; make it with Scene(..., actuation="thrusters") to command actuators'
+)
 """What is said to those who command actuators that are not there."""
 
 

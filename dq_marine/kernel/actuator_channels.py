@@ -1,7 +1,7 @@
 """What one number of an actuator does under a command: a shaft's speed, a fin's deflection, an azimuth's angle.
 
-A channel does not depend on the body, so under a constant command it is an explicit function of time. With the first-order
-lag T and the largest rate R,
+A channel does not depend on the body, so under a constant command it is an explicit function of time. With the
+first-order lag T and the largest rate R,
 
     dx/dt = (c - x)/T held within -R and R,                                                            (C1)
 

@@ -95,7 +95,9 @@ def make_control_period(
 
     Where the composition has actuators, the task must be made by `with_actuators`.
     """
-    push = make_actuators_push(composition) if composition.actuation.channels else make_push(composition, task)
+    push = (
+        make_actuators_push(composition) if composition.actuation.channels else make_push(composition, task)
+    )
     motion_of, sum_of_squares = make_motion(composition), make_sum_of_squares(action_size(composition))
     remember, observe, judge = task.remember, task.observe, task.judge
 

@@ -1,8 +1,8 @@
 """What moves a vehicle, as its file describes it: thrusters, thrusters that turn (azimuths), fins.
 
 Every actuator has one or two channels, numbers that are commanded: a shaft's speed, an angle, a deflection. A shaft's
-speed is in rad/s where the file gives gains and largest speeds; where it gives the largest thrusts instead, the speed is
-over its largest, from -1 to 1.
+speed is in rad/s where the file gives gains and largest speeds; where it gives the largest thrusts instead, the speed
+is over its largest, from -1 to 1.
 """
 
 from __future__ import annotations
@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from typing import Annotated, NamedTuple, Self
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from dq_marine.vehicles.fields import NonNegative, Positive, Table, Vector3, Vector6
@@ -75,7 +77,8 @@ class Propulsion(Table):
             )
         if self.driven and self.dead_band >= self.high:
             raise ValueError(
-                f"dead_band = {self.dead_band:g} leaves nothing of a command of at most {self.high:g}; give a smaller one"
+                f"dead_band = {self.dead_band:g} leaves nothing of a command of at most {self.high:g}; give a "
+                "smaller one"
             )
         return self
 
@@ -158,7 +161,9 @@ class Azimuth(Propulsion):
     @model_validator(mode="after")
     def _driven(self) -> Self:
         if not self.driven:
-            raise ValueError("its thrust is missing; give thrust_forward and thrust_reverse, or gains and speeds")
+            raise ValueError(
+                "its thrust is missing; give thrust_forward and thrust_reverse, or gains and speeds"
+            )
         return self
 
     @property
@@ -202,6 +207,24 @@ class ActuatorSet(NamedTuple):
     thrusters: tuple[Thruster, ...]
     azimuths: tuple[Azimuth, ...]
     fins: tuple[Fin, ...]
+
+    @property
+    def thrust_matrix(self) -> NDArray[np.float64]:
+        """Wrench in Fossen's order of thrusts, shape (6, n): one of each thruster, then x and y of each azimuth."""
+        columns = []
+        for thruster in self.thrusters:
+            direction = np.array(thruster.unit_direction)
+            moment = np.cross(thruster.position, direction) + thruster.torque_over_thrust * direction
+            columns.append(np.concatenate([direction, moment]))
+        for azimuth in self.azimuths:
+            for axis in np.eye(3)[:2]:
+                columns.append(np.concatenate([axis, np.cross(azimuth.position, axis)]))
+        return np.array(columns).reshape(-1, 6).T
+
+    @property
+    def fin_matrix(self) -> NDArray[np.float64]:
+        """Wrench in Fossen's order of deflections at 1 m/s ahead [N/rad, N m/rad], shape (6, n)."""
+        return np.array([fin.coefficients for fin in self.fins]).reshape(-1, 6).T
 
     @property
     def channels(self) -> tuple[ChannelSheet, ...]:

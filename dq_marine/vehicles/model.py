@@ -198,6 +198,11 @@ class Vehicle(Table):
         """What can be commanded, in the order of commands: thrusters, azimuths (speed, angle), fins."""
         return self.actuators.channels
 
+    @property
+    def allocation_matrix(self) -> NDArray[np.float64]:
+        """Wrench of unit thrusts about the body origin, shape (6, n): of each thruster, then x and y of each azimuth."""
+        return self.actuators.thrust_matrix
+
 
 def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the matrix S(a) with S(a) b = a x b, shape (3, 3)."""

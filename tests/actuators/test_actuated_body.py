@@ -44,7 +44,9 @@ def placed(body, values):
 @pytest.mark.parametrize(("order", "finest", "tolerance"), [(2, 320, 0.05), (4, 160, 0.15)])
 def test_the_order_is_kept(order, finest, tolerance):
     vehicle = lagged()
-    values = np.array([20.0, -0.3, 15.0, 0.5, 0.3, 0.1, 0.1, -0.1])  # no channel changes sign: n |n| has a kink there
+    values = np.array(
+        [20.0, -0.3, 15.0, 0.5, 0.3, 0.1, 0.1, -0.1]
+    )  # no channel changes sign: n |n| has a kink there
     duration, counts = 0.4, finest // np.array([8, 4, 2, 1])
     *reference, reached = solve(vehicle, (1.0, -2.0, 3.0), QUATERNION, VELOCITY, values, COMMAND, duration)
     measured = []
@@ -93,7 +95,7 @@ def trimmed(vehicle):
 
 @pytest.mark.parametrize(("speed", "gain"), [(40.0, 0.02), (-40.0, 0.011)])
 def test_a_hull_under_propellers_reaches_its_terminal_speed(speed, gain):
-    """d u + q |u| u = 2 k n |n|."""
+    """Damping holds the thrust: d u + q |u| u = 2 k n |n|."""
     vehicle = trimmed(twin_screw())
     body = Scene(vehicle, actuation="thrusters").stepper()
     body.actuate((speed, speed), 3000)
@@ -110,7 +112,7 @@ def test_a_remus_runs_at_the_speed_of_its_operating_point():
 
 
 def test_signs_of_rudder_and_planes():
-    """Positive rudder of REMUS turns the bow to port and pushes to starboard; planes pitch the bow down; as published."""
+    """As published: positive rudder turns the bow to port and pushes to starboard, positive planes pitch it down."""
     body = Scene("remus100", actuation="thrusters").stepper()
     body.reset(velocity_body=(1.5, 0.0, 0.0, 0.0, 0.0, 0.0))
     state = body.get_state()

@@ -95,4 +95,10 @@ def test_a_thruster_turns_the_short_way(value, command):
 
 def test_an_action_reaches_the_limit_on_its_side():
     channel = Channel(-3.0, 5.0, 0.0, ())
-    assert [scaled_command(channel, action) for action in (-1.0, -0.5, 0.0, 0.5, 1.0)] == [-3, -1.5, 0, 2.5, 5]
+    assert [scaled_command(channel, action) for action in (-1.0, -0.5, 0.0, 0.5, 1.0)] == [
+        -3,
+        -1.5,
+        0,
+        2.5,
+        5,
+    ]

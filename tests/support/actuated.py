@@ -27,7 +27,9 @@ def actuator_wrench(vehicle, values, nu):
         total += thrust * np.concatenate([d, np.cross(r, d) + thruster.torque_over_thrust * d])
     for azimuth in vehicle.azimuths:
         n, angle = next(it), next(it)
-        force = azimuth.gains[0 if n > 0 else 1] * n * abs(n) * np.array([math.cos(angle), math.sin(angle), 0.0])
+        force = (
+            azimuth.gains[0 if n > 0 else 1] * n * abs(n) * np.array([math.cos(angle), math.sin(angle), 0.0])
+        )
         total += np.concatenate([force, np.cross(azimuth.position, force)])
     for fin in vehicle.fins:
         total += nu[0] * abs(nu[0]) * next(it) * np.array(fin.coefficients)
