@@ -9,8 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.actuators import ActuationTerm
 from dq_marine.damping_term import DampingTerm
 from dq_marine.errors import InvalidInputError
+from dq_marine.kernel.actuation import NO_ACTUATION
 from dq_marine.kernel.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
 from dq_marine.kernel.extrapolated import ExtrapolatedTiming, make_extrapolated
@@ -54,6 +56,7 @@ class Assembly:
         current_ned: velocity of the water [m/s], shape (3,).
         scheme: one of `SCHEMES`.
         order: one of `ORDERS`.
+        actuators: those that drive the body, if any.
     """
 
     mass_matrix: NDArray[np.float64]
@@ -62,6 +65,7 @@ class Assembly:
     current_ned: NDArray[np.float64]
     scheme: str = "midpoint"
     order: int = 2
+    actuators: ActuationTerm | None = None
 
     def __post_init__(self) -> None:
         """Refuse schemes and orders that are not there, or cannot hold.
@@ -82,13 +86,13 @@ class Assembly:
     @property
     def terms(self) -> tuple[str, ...]:
         """Names of what the step computes besides inertia and the control wrench."""
-        names = [*(force.name for force in self.forces), *self.damping.names]
+        names = [*(force.name for force in self._present(0.0)), *self.damping.names]
         return tuple(filter(None, [*names, "current" if self.current_ned.any() else ""]))
 
     @property
     def dissipation(self) -> str:
         """What takes energy, or may: damping and velocity forces; empty if nothing does."""
-        names = [*self.damping.names, *(force.name for force in self._velocity_forces)]
+        names = [*self.damping.names, *(force.name for force in self._velocity_forces(0.0))]
         return ", ".join(filter(None, names))
 
     @property
@@ -97,12 +101,13 @@ class Assembly:
         drift, rescue = SCHEMES[self.scheme]
         return Composition(
             method=self._method.make,
-            pose_forces=tuple(force.compiled_form for force in self._pose_forces),
-            velocity_forces=tuple(force.compiled_form for force in self._velocity_forces),
+            pose_forces=tuple(force.compiled_form for force in self._pose_forces(0.0)),
+            velocity_forces=tuple(force.compiled_form for force in self._velocity_forces(0.0)),
             kick=self._method.kick,
             drift=drift,
             rescue=rescue,
             water=MOVING_WATER if self.current_ned.any() else STILL_WATER,
+            actuation=NO_ACTUATION if self.actuators is None else self.actuators.actuation,
         )
 
     def parameters_at(self, step: float) -> StepParameters:
@@ -110,18 +115,23 @@ class Assembly:
         return StepParameters(
             inertia=inertia_term(self.mass_matrix),
             damping=self.damping.matrices,
-            forces=(nested_parameters(self._pose_forces), nested_parameters(self._velocity_forces)),
+            forces=(
+                nested_parameters(self._pose_forces(step)),
+                nested_parameters(self._velocity_forces(step)),
+            ),
             water=UniformCurrent(vector3(self.current_ned)) if self.current_ned.any() else (),
             timing=self._method.timing(step),
         )
 
-    @property
-    def _pose_forces(self) -> tuple[ForceTerm, ...]:
-        return tuple(force for force in self.forces if not force.uses_velocity)
+    def _present(self, step: float) -> tuple[ForceTerm, ...]:
+        """Return all forces; that of the actuators comes first, where `kernel.actuated` finds it."""
+        return self.forces if self.actuators is None else (self.actuators.force_at(step), *self.forces)
 
-    @property
-    def _velocity_forces(self) -> tuple[ForceTerm, ...]:
-        return tuple(force for force in self.forces if force.uses_velocity)
+    def _pose_forces(self, step: float) -> tuple[ForceTerm, ...]:
+        return tuple(force for force in self._present(step) if not force.uses_velocity)
+
+    def _velocity_forces(self, step: float) -> tuple[ForceTerm, ...]:
+        return tuple(force for force in self._present(step) if force.uses_velocity)
 
     @property
     def _method(self) -> Method:
@@ -133,7 +143,7 @@ class Assembly:
             return Method(
                 make_composed, damping.kick, lambda h: ComposedTiming(tuple(h * stage for stage in stages))
             )
-        if self._velocity_forces:
+        if self._velocity_forces(0.0):
             return Method(
                 make_extrapolated,
                 damping.kick,

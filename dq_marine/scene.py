@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.actuators import ACTUATIONS, actuation_term
 from dq_marine.assembly import Assembly
 from dq_marine.checks import finite_array, finite_number
 from dq_marine.damping_term import vehicle_damping
@@ -41,6 +42,7 @@ class Scene:
         kick: how damping is taken in.
         hydrostatics: how buoyancy is computed.
         forces: of the user's own.
+        actuation: what drives the vehicle.
     """
 
     def __init__(
@@ -54,6 +56,7 @@ class Scene:
         kick: str = "l_stable",
         hydrostatics: str = "linear",
         forces: Sequence[ForceTerm] = (),
+        actuation: str = "wrench",
     ) -> None:
         """Check and compose the scene.
 
@@ -68,9 +71,12 @@ class Scene:
                 any other, weight and buoyancy under water; or "hull": buoyancy of the boxes of its hull at any depth
                 and attitude, so that it may capsize, dive or leave the water.
             forces: of your own, see `dq_marine.terms.ForceTerm`.
+            actuation: "wrench", a force and moment on the body; or "thrusters", the vehicle's thrusters, azimuths and
+                fins, with their limits and lags: see `ActuatedBody.actuate`.
 
         Raises:
-            InvalidInputError: a value is wrong, or the step is too large for the vehicle's restoring forces.
+            InvalidInputError: a value is wrong, the step is too large for the vehicle's restoring forces, or the
+                vehicle has no actuators whose forces are known.
             VehicleFileError: the vehicle file is wrong.
         """
         self.vehicle = load_vehicle(vehicle)
@@ -80,12 +86,18 @@ class Scene:
             raise InvalidInputError(f"kick = {kick!r} is unknown; give one of {list(KICKS)}")
         self.kick = kick
         self.hydrostatics = checked_hydrostatics(hydrostatics, self.vehicle)
+        if actuation not in ACTUATIONS:
+            raise InvalidInputError(f"actuation = {actuation!r} is unknown; give one of {list(ACTUATIONS)}")
+        self.actuation = actuation
         self.forces = checked_forces(forces)
         self._check_restoring_step()
         mass_matrix = self.vehicle.mass_matrix
         damping = vehicle_damping(self.vehicle, l_stable=kick == "l_stable")
         present = (*hydrostatic_terms(self.vehicle, self.hydrostatics), *self.forces)
-        self._assembly = Assembly(mass_matrix, present, damping, self.current_ned, scheme, order)
+        actuators = actuation_term(self.vehicle) if actuation == "thrusters" else None
+        self._assembly = Assembly(
+            mass_matrix, present, damping, self.current_ned, scheme, order, actuators=actuators
+        )
         self._check_direction_of_time()
 
     def __repr__(self) -> str:
@@ -93,7 +105,8 @@ class Scene:
         terms = ", ".join(self.terms) or "nothing"
         return (
             f"Scene({self.vehicle.name!r}, current={current}, scheme={self.scheme!r}, step={self.step:g}, "
-            f"order={self.order}, kick={self.kick!r}, hydrostatics={self.hydrostatics!r}; computes {terms})"
+            f"order={self.order}, kick={self.kick!r}, hydrostatics={self.hydrostatics!r}, "
+            f"actuation={self.actuation!r}; computes {terms})"
         )
 
     def __reduce__(self) -> Any:
@@ -107,6 +120,7 @@ class Scene:
             "kick": self.kick,
             "hydrostatics": self.hydrostatics,
             "forces": self.forces,
+            "actuation": self.actuation,
         }
         return _rebuild, (arguments,)
 
@@ -135,10 +149,13 @@ class Scene:
         return self._assembly.parameters_at(step)
 
     def stepper(self) -> OneBody:
-        """Return a body at rest at the world's origin, with the step compiled for this scene."""
-        from dq_marine.engines.one_body import OneBody  # here: it imports Numba
+        """Return a body at rest at the world's origin, with the step compiled for this scene.
 
-        return OneBody(self.composition, self.parameters_at, self.step)
+        With `actuation="thrusters"` it is an `ActuatedBody`, whose actuators are at rest, too.
+        """
+        from dq_marine.engines.actuated_body import body_of  # here: it imports Numba
+
+        return body_of(self.composition, self.parameters_at, self.step)
 
     def batch(
         self,
@@ -181,6 +198,11 @@ class Scene:
                 f"step = {self.step:g} s, but there is {self._assembly.dissipation}, which cannot be undone; give a "
                 "positive step, or leave it out"
             )
+        if self.step < 0.0 and self.actuation != "wrench":
+            raise InvalidInputError(
+                f"step = {self.step:g} s, but the lags of actuators cannot be undone; give a positive step, or "
+                'actuation="wrench"'
+            )
 
     def _check_restoring_step(self) -> None:
         """Restoring forces are explicit at the node: stable for h omega < 2."""
@@ -215,7 +237,7 @@ def batch_of(
     Raises:
         InvalidInputError: the scenes differ in their terms or step, or a value is wrong.
     """
-    from dq_marine.engines.batch import Batch  # here: it imports Numba
+    from dq_marine.engines.actuated_batch import batch_type  # here: it imports Numba
 
     if not scenes or (size is not None and len(scenes) not in (1, size)):
         raise InvalidInputError(f"{len(scenes)} scenes for {size} bodies; give one, or one for each body")
@@ -225,7 +247,7 @@ def batch_of(
             "the scenes of a batch differ in what they compute, or in their step; give scenes of equal terms, "
             "scheme, order, kick and step (a term that is zero is left out: give it a tiny value)"
         )
-    return Batch(
+    return batch_type(first.composition)(
         first.composition,
         [scene.parameters_at(scene.step) for scene in scenes],
         first.step,

@@ -24,7 +24,7 @@ class Episode:
         aim: the task's parameters, packed.
         state: pose and momentum, shape (14,).
         memory: the task's memory, packed.
-        action: of the last control period, six axes, normalised.
+        action: of the last control period as the kernel takes it, normalised: of six axes, or of all channels.
         observation: at its end.
         measures: at its end, as the task names them.
         current_ned: of the water [m/s], shape (3,).

@@ -61,6 +61,7 @@ class LaneMemory:
         self.bodies = -(-n // lanes.width) * lanes.width
         self.arrays = self._arrays(first)
         self._like_parameters = parameters[0]
+        self._action_size = first.action_size
         self.fill(self.layout.parameters, self.arrays.shared, self.arrays.parameters, parameters)
         self._own_aims = frozenset(own_aims)
         self.set_default_aims(aims)
@@ -116,7 +117,7 @@ class LaneMemory:
             aim=self._read(layout.aim, arrays.shared_aim, arrays.aims, index),
             state=self._read(layout.state, arrays.shared, arrays.states, index),
             memory=self._read(layout.memory, arrays.shared, arrays.memories, index),
-            action=np.zeros(6),
+            action=np.zeros(self._action_size),
             observation=arrays.observations[index].copy(),
             measures=arrays.measures[:, index].copy(),
             current_ned=np.array(water.velocity) if water else np.zeros(3),

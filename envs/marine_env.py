@@ -18,6 +18,7 @@ from dq_marine.checks import finite_number, positive_integer
 from dq_marine.engines.control_period import ACTION_NOT_FINITE, compiled_control_period
 from dq_marine.engines.one_body import REFUSALS
 from dq_marine.engines.packing import pack, structure_type, unpack
+from dq_marine.envs.drive import drive_of
 from dq_marine.envs.episode import Episode
 from dq_marine.envs.start import AT_ORIGIN, as_chosen, checked_options, drawn_speed_and_fixed_current
 from dq_marine.envs.view import EpisodeView
@@ -41,20 +42,22 @@ Action = NDArray[np.float32]
 
 
 class MarineEnv(gym.Env[Observation, Action], ABC):
-    """One vehicle in a uniform current, driven by body thrust and torque.
+    """One vehicle in a uniform current, driven by body thrust and torque, or by its thrusters.
 
     A task derives from it, names its kernel functions in `task` and says how goals and starts are drawn.
 
     Attributes:
         vehicle: the validated vehicle.
         scene: what is integrated, with the largest current that may be drawn.
+        task: the formulas of the task, for what drives the vehicle.
+        drive: what an action does.
         control_period: time between actions [s].
         substeps: integrator steps in a control period.
         substeps_rescued: of all taken so far, those that plain Newton did not solve (see `kernel.drift`).
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 10}  # type: ignore[misc]
-    task: ClassVar[Task]
+    task: Task
 
     def __init__(
         self,
@@ -64,6 +67,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         control_period: float,
         substeps: int,
         scheme: str,
+        actuation: str,
         render_mode: str | None,
         record: bool,
     ) -> None:
@@ -77,7 +81,9 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.current_draw = CurrentDraw(vector3(self.current_ned), self.current_speed)
         largest = np.array([self.current_speed, 0.0, 0.0]) + self.current_ned
         step = self.control_period / self.substeps
-        self.scene = Scene(self.vehicle, current=largest, scheme=scheme, step=step)
+        self.scene = Scene(self.vehicle, current=largest, scheme=scheme, step=step, actuation=actuation)
+        self.drive = drive_of(self.scene)
+        self.task = self.drive.task(self.task)
         modes = self.metadata["render_modes"]
         if render_mode is not None and render_mode not in modes:
             raise InvalidInputError(f"render_mode = {render_mode!r}; give None or one of {modes}")
@@ -85,9 +91,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.record = bool(record)
         self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]
 
-        self._axes = np.flatnonzero(self.vehicle.wrench_limits)
         bound = self.observation_bound
-        self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self._axes),), np.float32)
+        self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self.drive.places),), np.float32)
         self.observation_space = gym.spaces.Box(-bound, bound, dtype=np.float32)
         self.base_parameters = self.scene.parameters_at(step)
         self._motion = make_motion(self.scene.composition)
@@ -147,7 +152,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """Hold an action for one control period.
 
         Args:
-            action: thrust and torque of the actuated axes over their limits; saturates beyond [-1, 1].
+            action: thrust and torque of the actuated axes, or commands of the channels, over their limits;
+                saturates beyond [-1, 1].
 
         Returns:
             Observation, reward, terminated, truncated (False: `gym.make` adds the time limit), info.
@@ -291,9 +297,19 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         return self._running("the episode")
 
     @property
-    def actuated_axes(self) -> NDArray[np.intp]:
-        """Indices of the axes that an action drives, among surge, sway, heave, roll, pitch, yaw."""
-        return self._axes
+    def action_names(self) -> tuple[str, ...]:
+        """What each number of an action drives: axes such as "surge", or channels of the vehicle's actuators."""
+        return self.drive.names
+
+    @property
+    def action_places(self) -> NDArray[np.intp]:
+        """Where the numbers of an action stand among the `action_size` that the kernel takes."""
+        return self.drive.places
+
+    @property
+    def action_size(self) -> int:
+        """How many numbers the kernel takes: six axes, or all channels."""
+        return self.drive.size
 
     def integration_report(
         self, status: int, completed: int, residual_squared: float, spin_squared: float, speed_squared: float
@@ -314,6 +330,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Compile again (from the cache on disk) and start without a window."""
         self.__dict__.update(state)
+        self.drive = drive_of(self.scene)
+        self.task = self.drive.task(type(self).task)
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
         self._view = EpisodeView(self)
@@ -326,7 +344,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             time=self.time,
             position_ned=np.array(motion.position_ned),
             quaternion_body_to_ned=np.array(motion.attitude),
-            wrench_body=episode.action * self.vehicle.wrench_limits,
+            wrench_body=self.drive.wrench_body(self._parameters, episode),
             current_ned=episode.current_ned,
             goal_position_ned=None if goal is None else np.array(goal[0]),
             goal_quaternion_body_to_ned=None if goal is None else np.array(goal[1]),
@@ -356,22 +374,22 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             aim=pack(aim),
             state=pack(begun.state),
             memory=pack(begun.memory),
-            action=np.zeros(6),
+            action=np.zeros(self.drive.size),
             observation=pack(begun.observation).astype(np.float32),
             measures=pack(begun.measures),
             current_ned=np.array(drawn.current_ned),
         )
 
     def _command(self, action: Action) -> NDArray[np.float64]:
-        """Return the action of all six axes, not saturated yet: the compiled code does that."""
+        """Return the action as the kernel takes it, not saturated yet: the compiled code does that."""
         try:
             given = np.asarray(action, dtype=np.float64)
         except (TypeError, ValueError) as error:
             raise InvalidInputError(f"action = {action!r} is not numeric") from error
         if given.shape != self.action_space.shape:
             raise InvalidInputError(f"action has shape {given.shape}; give shape {self.action_space.shape}")
-        command = np.zeros(6)
-        command[self._axes] = given
+        command = np.zeros(self.drive.size)
+        command[self.drive.places] = given
         return command
 
     def _info(self) -> dict[str, Any]:
@@ -396,4 +414,4 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         return chosen
 
 
-_NOT_CARRIED = ("_compiled", "_motion", "_view")
+_NOT_CARRIED = ("_compiled", "_motion", "_view", "drive", "task")

@@ -84,7 +84,8 @@ class StationKeepingEnv(MarineEnv):
     """Reach a goal pose and hold it in an unseen current.
 
     Action: Box(-1, 1, (n,)), the thrust and torque of the n actuated axes, in the order surge, sway, heave, roll,
-    pitch, yaw, over the vehicle's limits. Beyond the box it saturates.
+    pitch, yaw, over the vehicle's limits; or with `actuation="thrusters"` the commands of the n channels of its
+    actuators in the order of `Vehicle.channels`, each over its limit on that side. Beyond the box it saturates.
 
     Observation: see `station_keeping_task.observe`, 18 numbers in SI units. `info` has `position_error` [m],
     `attitude_error` [rad] and `is_success`; after a refused step also `integration`.
@@ -103,6 +104,7 @@ class StationKeepingEnv(MarineEnv):
         control_period: float = 0.1,
         substeps: int = 4,
         scheme: str = "midpoint",
+        actuation: str = "wrench",
         reward: StationKeepingReward | Mapping[str, float] | None = None,
         goal_position: Sequence[float] | None = None,
         start_radius: float | None = None,
@@ -119,6 +121,8 @@ class StationKeepingEnv(MarineEnv):
             control_period: time between actions [s].
             substeps: integrator steps in a control period.
             scheme: the integrator's drift, by name.
+            actuation: "wrench" or "thrusters": what an action drives; thrusters, azimuths and fins are at rest when an
+                episode begins.
             reward: weights and widths, as a `StationKeepingReward` or a dictionary of its fields.
             goal_position: in NED [m]; None for (0, 0, 5), or where a vessel that floats is at rest.
             start_radius: episodes start within this distance of the goal [m], one in ten at the goal itself; a vessel
@@ -155,6 +159,7 @@ class StationKeepingEnv(MarineEnv):
             control_period=control_period,
             substeps=substeps,
             scheme=scheme,
+            actuation=actuation,
             render_mode=render_mode,
             record=record,
         )
@@ -190,7 +195,7 @@ class StationKeepingEnv(MarineEnv):
             self.workspace_radius,
             self.control_period,
             tuple(limits.tolist()),
-            float(np.count_nonzero(limits)),
+            float(len(self.drive.places)),
             Weights(**{field.name: float(getattr(self.reward, field.name)) for field in fields(self.reward)}),
         )
 

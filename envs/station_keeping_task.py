@@ -61,7 +61,7 @@ class Aim(NamedTuple):
         workspace_radius: distance from the goal [m] beyond which the episode ends.
         period: control period [s].
         wrench_limits: wrench at full action.
-        axes: number of actuated axes.
+        axes: how many numbers the agent's action has.
         weights: of the reward.
     """
 
@@ -159,15 +159,13 @@ def observe(aim: Aim, memory: Memory, motion: Motion) -> Any:
     )
 
 
-def judge(aim: Aim, motion: Motion, action: tuple[float, ...]) -> Verdict:
+def judge(aim: Aim, motion: Motion, squares: float) -> Verdict:
     """Return the reward of `StationKeepingReward`, the end beyond the workspace, distance and attitude error."""
     error = subtract(aim.position_ned, motion.position_ned)
     distance = math.sqrt(dot(error, error))
     to_goal = quaternion_multiply(quaternion_conjugate(motion.attitude), aim.attitude)
     axis = (to_goal[1], to_goal[2], to_goal[3])
     angle = 2.0 * math.atan2(math.sqrt(dot(axis, axis)), abs(to_goal[0]))
-    forces, torques = (action[0], action[1], action[2]), (action[3], action[4], action[5])
-    squares = dot(forces, forces) + dot(torques, torques)
     weights = aim.weights
     nearness = distance / weights.position_width
     reward = (

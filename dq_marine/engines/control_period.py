@@ -12,6 +12,7 @@ from numba import types
 from dq_marine.engines.compilation import compile_function
 from dq_marine.engines.one_body import AT_REST
 from dq_marine.engines.packing import make_load, store, structure_type
+from dq_marine.kernel.push import action_size
 from dq_marine.kernel.step import Composition
 from dq_marine.kernel.task import Task, make_control_period
 
@@ -39,6 +40,8 @@ def compiled_control_period(
     load_aim = make_load(aim_layout)
     load_memory = make_load(memory_layout)
     load_state = make_load(structure_type(AT_REST))
+    size = action_size(composition)
+    load_action = make_load(types.UniTuple(types.float64, size))
 
     def control_period_arrays(
         parameters: Any,
@@ -51,17 +54,16 @@ def compiled_control_period(
         time: float,
         steps: int,
     ) -> Any:
-        for axis in range(6):
+        for axis in range(size):
             if not math.isfinite(action[axis]):
                 return ACTION_NOT_FINITE, 0, 0, 0.0, 0.0, 0.0
             action[axis] = max(-1.0, min(1.0, action[axis]))
-        command = (action[0], action[1], action[2], action[3], action[4], action[5])
         outcome = control_period(
             load_parameters(parameters),
             load_aim(aim),
             load_state(state),
             load_memory(memory),
-            command,
+            load_action(action),
             time,
             steps,
         )

@@ -24,7 +24,6 @@ from dq_marine.engines.packing import make_load, structure_type
 from dq_marine.engines.pcg64 import next_uniform
 from dq_marine.kernel.beginning import (
     CURRENT_DRAWS,
-    NO_ACTION,
     Beginning,
     CurrentDraw,
     Drawn,
@@ -32,6 +31,7 @@ from dq_marine.kernel.beginning import (
     make_beginning,
     make_draw,
 )
+from dq_marine.kernel.push import action_size
 from dq_marine.kernel.selection import negation, select, select_call, some, spread
 from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import ACCEPTED, Composition, StepParameters, make_motion
@@ -148,16 +148,20 @@ def as_chosen_in(chosen: Any, drawn: Drawn) -> Drawn:
 CHOSEN_COLUMNS = 16
 
 
-def saturated(action: Any) -> Any:
-    """Return the action of six axes within -1 and 1."""
-    return (
-        max(-1.0, min(1.0, action[0])),
-        max(-1.0, min(1.0, action[1])),
-        max(-1.0, min(1.0, action[2])),
-        max(-1.0, min(1.0, action[3])),
-        max(-1.0, min(1.0, action[4])),
-        max(-1.0, min(1.0, action[5])),
-    )
+def make_saturated(size: int, first: int = 0) -> Callable[[Any], Any]:
+    """Return (action) -> its numbers from `first` to `size`, each held within -1 and 1."""
+    if first == size - 1:
+
+        def saturated_last(action: Any) -> Any:
+            return (max(-1.0, min(1.0, action[first])),)
+
+        return saturated_last
+    rest = make_saturated(size, first + 1)
+
+    def saturated(action: Any) -> Any:
+        return (max(-1.0, min(1.0, action[first])), *rest(action))
+
+    return saturated
 
 
 @functools.cache
@@ -202,7 +206,7 @@ def compiled_begin(composition: Composition, task: Task, layout: PeriodLayout) -
                 state = load_state(arrays.shared, arrays.states, block)
                 memory = load_memory(arrays.shared, arrays.memories, block)
                 motion = motion_of(parameters, state)
-                measures = judge(aim, motion, NO_ACTION).measures
+                measures = judge(aim, motion, 0.0).measures
                 observation = observe(aim, memory, motion)
                 current = spread((0.0, 0.0, 0.0), motion.position_ned[0])
                 going_on = Beginning(parameters.water, state, memory, observation, measures), current
@@ -225,17 +229,14 @@ def compiled_period(
 ) -> Callable[..., Any]:
     """Compile (first, last, arrays, actions, period, steps, most_periods): one control period of a range of blocks.
 
-    `actions` has a row of six axes for every environment, saturated here; `period` [s] is divided into `steps`; an
+    `actions` has a row for every environment, saturated here; `period` [s] is divided into `steps`; an
     episode is truncated after `most_periods`. `renewal` is `renew_at_next_step` or `renew_at_same_step`.
     """
     loads, stores = _Loads(layout), _Stores(layout)
     load_parameters, load_aim, load_state = loads.parameters, loads.aim, loads.state
-    load_memory, load_flags, load_numbers, load_actions = (
-        loads.memory,
-        loads.flags,
-        loads.numbers,
-        loads.actions,
-    )
+    load_memory, load_flags, load_numbers = loads.memory, loads.flags, loads.numbers
+    size = action_size(composition)
+    load_actions, saturated = make_load_rows(layout.lanes, size), make_saturated(size)
     store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
     store_aim, store_outcome = stores.aim, stores.outcome
     control_period, begin_one = make_control_period(composition, task), make_begin_one(composition, task)
@@ -316,7 +317,6 @@ class _Loads:
         self.memory = make_load_block(layout.memory)
         self.flags = make_load_column(layout.lanes.of(types.boolean))
         self.numbers = make_load_column(layout.lanes)
-        self.actions = make_load_rows(layout.lanes, 6)
 
 
 class _Stores:

@@ -47,6 +47,12 @@ SMALLEST_FRACTION = 2.0**-20
 """Of the scene's step: the smallest that is tried when an admissible one is sought."""
 
 
+NO_ACTUATORS = (
+    'this scene is driven by wrenches; make it with Scene(..., actuation="thrusters") to command actuators'
+)
+"""What is said to those who command actuators that are not there."""
+
+
 class OneBody:
     """A body in a scene: its state, and the compiled step.
 
@@ -72,7 +78,7 @@ class OneBody:
         self._parameters_at = parameters_at
         self.parameters = parameters_at(step)
         self._numbers = pack(self.parameters)
-        self._advance = compiled_advance(composition, structure_type(self.parameters))
+        self._advance = self._compiled_advance()
         self._motion = make_motion(composition)
         self._state = pack(AT_REST)
         self.step_size = step
@@ -133,6 +139,26 @@ class OneBody:
         self.steps_rescued += rescued
         self.time += count * self.step_size
 
+    def actuate(
+        self,
+        command: ArrayLike,
+        steps: int = 1,
+        wrench_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    ) -> None:
+        """Advance under a command of the actuators, in a scene that has them: see `ActuatedBody.actuate`.
+
+        Raises:
+            InvalidInputError: this scene has none.
+        """
+        raise InvalidInputError(NO_ACTUATORS)
+
+    def _compiled_advance(self) -> Callable[..., Any]:
+        return compiled_advance(self._composition, structure_type(self.parameters))
+
+    def _as_driven(self, parameters: StepParameters) -> StepParameters:
+        """Return the parameters of the next step, for one of another size."""
+        return parameters
+
     def _refusal(
         self, status: int, completed: int, wrench: NDArray[np.float64], residual_squared: float
     ) -> StepNotSolvableError:
@@ -151,7 +177,7 @@ class OneBody:
         force = from_fossen(tuple(wrench.tolist()))
         fraction = 0.5
         while fraction >= SMALLEST_FRACTION:
-            parameters = self._parameters_at(self.step_size * fraction)
+            parameters = self._as_driven(self._parameters_at(self.step_size * fraction))
             try:
                 outcome = advance(parameters, self.state, force, self.time, min(int(steps / fraction), 64))
                 if outcome.status == ACCEPTED:

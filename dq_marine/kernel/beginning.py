@@ -14,8 +14,6 @@ from dq_marine.kernel.vector3 import Vector3, add
 CURRENT_DRAWS = 2
 """Uniform random numbers that a current takes."""
 
-NO_ACTION = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-
 
 class CurrentDraw(NamedTuple):
     """A fixed current in NED [m/s], and a horizontal one of any direction, with a speed [m/s] of up to `speed`."""
@@ -82,7 +80,7 @@ def make_beginning(composition: Composition, task: Task) -> Callable[[StepParame
         start, flowing = drawn.start, in_water(parameters, flow(drawn.current_ned))
         state = place(flowing, start.position_ned, start.attitude, start.velocity)
         memory, motion = forget(aim), motion_of(flowing, state)
-        measures = judge(aim, motion, NO_ACTION).measures
+        measures = judge(aim, motion, 0.0).measures
         return Beginning(flowing.water, state, memory, observe(aim, memory, motion), measures)
 
     return begin

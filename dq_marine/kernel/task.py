@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from dq_marine.kernel.body import BodyState, Motion
+from dq_marine.kernel.push import action_size, make_actuators_push, make_push, make_sum_of_squares
 from dq_marine.kernel.quaternion import Quaternion
 from dq_marine.kernel.selection import select
 from dq_marine.kernel.spatial import Spatial
@@ -20,7 +21,6 @@ from dq_marine.kernel.step import (
     Composition,
     StepOutcome,
     StepParameters,
-    make_advance,
     make_motion,
 )
 from dq_marine.kernel.vector3 import Vector3
@@ -56,10 +56,11 @@ class Task:
         draws: how many uniform random numbers in [0, 1) `start` takes.
         start: (parameters, uniforms) -> Start. Called for one body at a time, it may branch.
         forget: (parameters) -> memory at an episode's start.
-        act: (parameters, action) -> wrench on the body, from the normalised action of six axes.
+        act: (parameters, action) -> wrench on the body, from the normalised action of six axes; not called where
+            actuators drive the body.
         remember: (parameters, memory, motion) -> memory at the end of a control period.
         observe: (parameters, memory, motion) -> nested tuples of numbers, flattened into the observation.
-        judge: (parameters, motion, action) -> Verdict.
+        judge: (parameters, motion, sum of squares of the action) -> Verdict.
         measure_names: names of the verdict's measures.
         episode_fields: of the parameters, those that may differ between episodes.
     """
@@ -70,7 +71,7 @@ class Task:
     act: Callable[[Any, Any], Spatial]
     remember: Callable[[Any, Any, Motion], Any]
     observe: Callable[[Any, Any, Motion], Any]
-    judge: Callable[[Any, Motion, Any], Verdict]
+    judge: Callable[[Any, Motion, float], Verdict]
     measure_names: tuple[str, ...]
     episode_fields: tuple[str, ...]
 
@@ -90,10 +91,15 @@ class PeriodOutcome(NamedTuple):
 def make_control_period(
     composition: Composition, task: Task
 ) -> Callable[[StepParameters, Any, BodyState, Any, Any, float, int], PeriodOutcome]:
-    """Return (parameters, task parameters, state, memory, action, time, steps) -> outcome: one control period."""
-    advance = make_advance(composition)
-    motion_of = make_motion(composition)
-    act, remember, observe, judge = task.act, task.remember, task.observe, task.judge
+    """Return (parameters, task parameters, state, memory, action, time, steps) -> outcome: one control period.
+
+    Where the composition has actuators, the task must be made by `with_actuators`.
+    """
+    push = (
+        make_actuators_push(composition) if composition.actuation.channels else make_push(composition, task)
+    )
+    motion_of, sum_of_squares = make_motion(composition), make_sum_of_squares(action_size(composition))
+    remember, observe, judge = task.remember, task.observe, task.judge
 
     def control_period(
         parameters: StepParameters,
@@ -104,11 +110,11 @@ def make_control_period(
         time: float,
         steps: int,
     ) -> PeriodOutcome:
-        step = advance(parameters, state, act(aim, action), time, steps)
+        step, pushed = push(parameters, aim, state, memory, action, time, steps)
         taken = step.status == ACCEPTED
         motion = motion_of(parameters, step.state)
-        memory_after = select(taken, remember(aim, memory, motion), memory)
-        verdict = judge(aim, motion, action)
+        memory_after = select(taken, remember(aim, pushed, motion), memory)
+        verdict = judge(aim, motion, sum_of_squares(action))
         reward = select(taken, verdict.reward, 0.0)
         terminated = select(taken, verdict.terminated, 1.0)
         return PeriodOutcome(

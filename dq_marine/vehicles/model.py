@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from dq_marine.vehicles.actuators import ActuatorSet, Azimuth, ChannelSheet, Fin, Thruster
 from dq_marine.vehicles.cross_flow import CrossFlow
 from dq_marine.vehicles.damping_coupling import DampingCoupling, coupling_tensor
 from dq_marine.vehicles.fields import (
@@ -107,18 +108,6 @@ class Dimensions(Table):
     shape: Literal["open_frame", "torpedo", "ellipsoid", "catamaran", "ship"]
 
 
-class Thruster(Table):
-    """Place and direction of one thruster.
-
-    Attributes:
-        position: [m].
-        direction: of the force on the body at positive thrust; need not be of unit length.
-    """
-
-    position: Vector3
-    direction: Vector3
-
-
 class Vehicle(Table):
     """A marine vehicle, as its file describes it.
 
@@ -135,7 +124,9 @@ class Vehicle(Table):
         cross_flow: drag of strips along the hull, besides.
         limits: of the actuators.
         dimensions: overall size.
-        thrusters: for drawing.
+        thrusters: propellers on fixed axes.
+        azimuths: propellers whose axes turn.
+        fins: rudders and planes.
         hydrostatics: of a vessel that floats; None for one that is under water altogether.
         hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
         loads: weights that act besides.
@@ -153,6 +144,8 @@ class Vehicle(Table):
     limits: Limits
     dimensions: Dimensions
     thrusters: tuple[Thruster, ...] = ()
+    azimuths: tuple[Azimuth, ...] = ()
+    fins: tuple[Fin, ...] = ()
     hydrostatics: Hydrostatics | None = None
     hull: tuple[HullBox, ...] = ()
     loads: tuple[Load, ...] = ()
@@ -243,6 +236,22 @@ class Vehicle(Table):
         """Largest force and moment of each axis [N, N m], shape (6,)."""
         return np.array(self.limits.wrench)
 
+    @property
+    def actuators(self) -> ActuatorSet:
+        """The actuators whose forces are known: without thrusters that are for drawing only."""
+        driven = tuple(thruster for thruster in self.thrusters if thruster.driven)
+        return ActuatorSet(driven, self.azimuths, self.fins)
+
+    @property
+    def channels(self) -> tuple[ChannelSheet, ...]:
+        """What can be commanded, in the order of commands: thrusters, azimuths (speed, angle), fins."""
+        return self.actuators.channels
+
+    @property
+    def allocation_matrix(self) -> NDArray[np.float64]:
+        """Wrench of unit thrusts about the body origin, shape (6, n): of each thruster, then x and y of each azimuth."""
+        return self.actuators.thrust_matrix
+
 
 def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the matrix S(a) with S(a) b = a x b, shape (3, 3)."""
@@ -252,9 +261,11 @@ def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
 __all__ = [
     "MOTIONS",
     "STANDARD_GRAVITY",
+    "Azimuth",
     "Buoyancy",
     "Damping",
     "Dimensions",
+    "Fin",
     "Limits",
     "RigidBody",
     "Thruster",

@@ -47,6 +47,7 @@ def check_vehicle(vehicle: Vehicle) -> None:
     _check_limits(vehicle)
     _check_thrusters(vehicle)
     check_floating(vehicle)
+    _check_actuator_size(vehicle)
 
 
 def _check_inertia_symmetry(vehicle: Vehicle) -> None:
@@ -222,3 +223,36 @@ def _check_thrusters(vehicle: Vehicle) -> None:
                 "the direction is the zero vector",
                 "give the direction of the force at positive thrust",
             )
+    known = [thruster.driven for thruster in vehicle.thrusters]
+    if any(known) and not all(known):
+        raise Implausible(
+            f"thrusters.{known.index(False)}",
+            vehicle.thrusters[known.index(False)].name or "one without thrust",
+            "its thrust is missing, though others have theirs",
+            "give thrust_forward and thrust_reverse, or gains and speeds, for all thrusters or for none",
+        )
+
+
+def _check_actuator_size(vehicle: Vehicle) -> None:
+    """Thrust and distance of each actuator, by the same measure as the limits."""
+    reach = REACH * max(vehicle.dimensions.length, vehicle.dimensions.width, vehicle.dimensions.height)
+    largest = ACCELERATION_LIMIT * vehicle.rigid_body.mass
+    for field in ("thrusters", "azimuths"):
+        for i, propulsion in enumerate(getattr(vehicle, field)):
+            distance = float(np.linalg.norm(propulsion.position))
+            if distance > reach:
+                raise Implausible(
+                    f"{field}.{i}.position",
+                    propulsion.position,
+                    f"it lies {distance:.3g} m from the origin of a vehicle {reach:.3g} m long",
+                    "give positions in m from the body origin",
+                )
+            thrust = max(map(abs, propulsion.thrust_range))
+            if thrust > largest:
+                raise Implausible(
+                    f"{field}.{i}",
+                    f"thrust of up to {thrust:.6g} N",
+                    f"it would accelerate the vehicle's {vehicle.rigid_body.mass:.4g} kg beyond "
+                    f"{ACCELERATION_LIMIT:g} m/s^2",
+                    "give thrust in N, gains in N s^2 and speeds in rad/s",
+                )
