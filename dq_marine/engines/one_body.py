@@ -43,6 +43,9 @@ AT_REST = BodyState(
 )
 """At the world's origin, axes aligned, at rest in the water."""
 
+UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
+"""Quaternion of a body whose axes are those of the world."""
+
 SMALLEST_FRACTION = 2.0**-20
 """Of the scene's step: the smallest that is tried when an admissible one is sought."""
 
@@ -80,7 +83,7 @@ class OneBody:
         self._numbers = pack(self.parameters)
         self._advance = self._compiled_advance()
         self._motion = make_motion(composition)
-        self._state = pack(AT_REST)
+        self._state = pack(place_body(composition, self.parameters, np.zeros(3), UPRIGHT, np.zeros(6)))
         self.step_size = step
         self.time = 0.0
         self.steps_taken = self.newton_iterations = self.steps_rescued = 0
