@@ -112,7 +112,7 @@ def test_otter_has_the_published_numbers():
     stiffness = moved(at_flotation, np.array([-0.2, 0.0, 0.0]))
     assert np.allclose(vehicle.waterplane_stiffness, stiffness[2:5, 2:5], rtol=1e-9)
 
-    natural = np.sqrt(np.diag(stiffness)[2:5] / np.diag(m)[2:5])
+    natural = np.sqrt(np.diag(at_flotation)[2:5] / np.diag(m)[2:5])
     relative = 2.0 * np.array([0.3, 0.2, 0.4]) * natural * np.diag(m)[2:5]
     linear = (24.4 * g / 3.0864, m[1, 1], *relative, m[5, 5])
     assert np.allclose(np.diag(vehicle.linear_damping), linear, rtol=1e-8)
