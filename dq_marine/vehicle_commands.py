@@ -89,7 +89,7 @@ def show(
 
     loaded = load_vehicle(vehicle)
     shape = shape_of(loaded)
-    still = at_rest(depth=2.0 * shape.size)
+    still = at_rest(depth=2.0 * shape.size if loaded.hydrostatics is None else loaded.equilibrium_depth)
     if html is not None:
         save_replay(html, [still], shape, title=loaded.name)
         console.print(f"Wrote {html}", soft_wrap=True)

@@ -28,6 +28,7 @@ def shape_of(vehicle: Vehicle) -> Shape:
         width=size.width,
         height=size.height,
         kind=size.shape,
+        draft=size.draft,
         max_force=float(vehicle.wrench_limits[:3].max()) or 1.0,
         thrusters=tuple(
             Thruster(np.array(thruster.position), np.array(thruster.direction))

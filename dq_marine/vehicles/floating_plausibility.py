@@ -29,6 +29,7 @@ def check_floating(vehicle: Vehicle) -> None:
     _check_waterplane(vehicle)
     _check_hull(vehicle)
     _check_loads(vehicle)
+    _check_draft(vehicle)
 
 
 def _check_weight(vehicle: Vehicle) -> None:
@@ -112,3 +113,14 @@ def _check_loads(vehicle: Vehicle) -> None:
                 f"it lies {np.linalg.norm(load.position):.3g} m from the origin of a vehicle {reach:.3g} m long",
                 "give positions in m from the body origin",
             )
+
+
+def _check_draft(vehicle: Vehicle) -> None:
+    draft, height = vehicle.dimensions.draft, vehicle.dimensions.height
+    if draft is not None and draft >= height:
+        raise Implausible(
+            "dimensions.draft",
+            f"{draft:g} m",
+            f"the keel would lie deeper than the height, {height:g} m, allows",
+            "give the height from keel to deck, in m",
+        )
