@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -60,5 +61,5 @@ class ActuatorsOutlet:
         return Given(allocation.wrench_body, allocation.action)
 
 
-OUTLETS = {"wrench": WrenchOutlet, "thrusters": ActuatorsOutlet}
+OUTLETS: dict[str, Callable[[Vehicle], Outlet]] = {"wrench": WrenchOutlet, "thrusters": ActuatorsOutlet}
 """By the name of the actuation that an environment is made with."""
