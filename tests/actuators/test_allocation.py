@@ -158,7 +158,7 @@ def test_the_allocation_matrix_has_a_column_for_each_thrust():
 
 def test_mistakes_are_told():
     with pytest.raises(InvalidInputError, match="no actuators whose force is known"):
-        ThrustAllocator(load_vehicle("npsauv"))
+        ThrustAllocator(vehicle_with())
     with pytest.raises(InvalidInputError, match="arm"):
         ThrustAllocator(HEAVY, arm=0.0)
     for wrench in (np.zeros(5), np.full(6, math.nan)):
