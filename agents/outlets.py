@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -41,7 +42,11 @@ class WrenchOutlet:
 
 
 class ActuatorsOutlet:
-    """The vehicle's thrusters, azimuths and fins share the wrench; their lags are not known to the controller."""
+    """The vehicle's thrusters, azimuths and fins share the wrench; their lags are not known to the controller.
+
+    Each axis asks for no more than its limit: what a far goal wants of one would else be taken from the others, and the
+    integral would wind up against that.
+    """
 
     def __init__(self, vehicle: Vehicle) -> None:
         """Prepare the allocation.
@@ -52,13 +57,15 @@ class ActuatorsOutlet:
         """
         from dq_marine.allocation import ThrustAllocator  # here: it imports SciPy
 
+        self._limits = vehicle.wrench_limits
         self._allocator = ThrustAllocator(vehicle)
 
     def give(self, wanted: Array, surge_speed: float) -> Given:
         """Return what the actuators can do."""
-        allocation = self._allocator.allocate(wanted, surge_speed=surge_speed)
+        asked = np.clip(wanted, -self._limits, self._limits)
+        allocation = self._allocator.allocate(asked, surge_speed=surge_speed)
         return Given(allocation.wrench_body, allocation.action)
 
 
-OUTLETS = {"wrench": WrenchOutlet, "thrusters": ActuatorsOutlet}
+OUTLETS: dict[str, Callable[[Vehicle], Outlet]] = {"wrench": WrenchOutlet, "thrusters": ActuatorsOutlet}
 """By the name of the actuation that an environment is made with."""

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.actuation import ActuatorKind, Actuation, Actuators, Drive, make_actuation, nested
+from dq_marine.kernel.actuation import Actuation, ActuatorKind, Actuators, Drive, make_actuation, nested
 from dq_marine.kernel.actuator_channels import (
     Channel,
     ChannelKind,

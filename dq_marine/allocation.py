@@ -5,9 +5,9 @@ Thrusts f solve a least squares problem within the actuators' limits,
     minimise |W (B f - tau)|^2 + e^2 |f / f_max|^2,    f_min <= f <= f_max,                            (A1)
 
 with B the allocation matrix and tau the wanted wrench. W makes forces and moments comparable: a moment counts like the
-force that makes it at the arm of one vehicle length. Axes that the vehicle's file says are not actuated do not count. The
-small e chooses the least effort among solutions that are equally good. (Constrained allocation: Johansen and Fossen 2013,
-Control allocation, a survey, Automatica 49, 1087; Fossen 2021, ch. 11.)
+force that makes it at the arm of one vehicle length. Axes that the vehicle's file says are not actuated do not count.
+The small e chooses the least effort among solutions that are equally good. (Constrained allocation: Johansen and Fossen
+2013, Control allocation, a survey, Automatica 49, 1087.)
 
 An azimuth counts as two thrusts, along x and y, each within the largest thrust. Where this rectangle promises more than
 the azimuth can do, its direction is kept and its thrust limited, and the rest is solved again.

@@ -217,8 +217,7 @@ class ActuatorSet(NamedTuple):
             moment = np.cross(thruster.position, direction) + thruster.torque_over_thrust * direction
             columns.append(np.concatenate([direction, moment]))
         for azimuth in self.azimuths:
-            for axis in np.eye(3)[:2]:
-                columns.append(np.concatenate([axis, np.cross(azimuth.position, axis)]))
+            columns += [np.concatenate([axis, np.cross(azimuth.position, axis)]) for axis in np.eye(3)[:2]]
         return np.array(columns).reshape(-1, 6).T
 
     @property

@@ -249,7 +249,7 @@ class Vehicle(Table):
 
     @property
     def allocation_matrix(self) -> NDArray[np.float64]:
-        """Wrench of unit thrusts about the body origin, shape (6, n): of each thruster, then x and y of each azimuth."""
+        """Wrench of unit thrusts, shape (6, n): of each thruster, then along x and y of each azimuth."""
         return self.actuators.thrust_matrix
 
 

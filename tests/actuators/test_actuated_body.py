@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from support.actuated import actuator_wrench, solve
-from support.fleet import everything, twin_screw
+from support.fleet import everything, twin_screw, vehicle_with
 from support.fossen import errors
 from support.order import observed_order
 
@@ -184,7 +184,7 @@ def test_what_cannot_be_driven_says_so():
     with pytest.raises(InvalidInputError, match="driven by wrenches"):
         Scene("bluerov2_heavy").stepper().actuate(np.zeros(8))
     with pytest.raises(InvalidInputError, match="no actuators whose force is known"):
-        Scene("npsauv", actuation="thrusters")
+        Scene(vehicle_with(), actuation="thrusters")
     with pytest.raises(InvalidInputError, match="'sails' is unknown"):
         Scene("bluerov2_heavy", actuation="sails")
     with pytest.raises(InvalidInputError, match="cannot be undone"):

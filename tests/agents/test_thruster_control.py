@@ -65,4 +65,4 @@ def test_unknown_drives_are_refused() -> None:
     with pytest.raises(InvalidInputError, match="'sails' is unknown"):
         DPController(load_vehicle("bluerov2_heavy"), 0.1, actuation="sails")
     with pytest.raises(InvalidInputError, match="no actuators whose force is known"):
-        DPController(load_vehicle("npsauv"), 0.1, actuation="thrusters")
+        DPController(vehicle_with(), 0.1, actuation="thrusters")

@@ -12,7 +12,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env, data_equivalence
 from gymnasium.vector import AutoresetMode
 from support.actuated import actuator_wrench
-from support.fleet import everything, twin_screw
+from support.fleet import everything, twin_screw, vehicle_with
 
 import dq_marine  # noqa: F401 - registers
 from dq_marine.envs.station_keeping import StationKeepingEnv
@@ -128,7 +128,7 @@ def test_what_drives_it_is_checked():
     with pytest.raises(InvalidInputError, match="'oars' is unknown; give one of"):
         StationKeepingEnv(actuation="oars")
     with pytest.raises(InvalidInputError, match="no actuators whose force is known"):
-        StationKeepingEnv("npsauv", actuation="thrusters")
+        StationKeepingEnv(vehicle_with(), actuation="thrusters")
     env = made()
     env.reset(seed=0)
     with pytest.raises(InvalidInputError, match=r"give shape \(8,\)"):
