@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from rich.box import SIMPLE
 from rich.table import Table
 from rich.text import Text
 
+from dq_marine.randomisation import Spread
 from dq_marine.vehicles import Sheet, Vehicle, vehicle_sheet
 from dq_marine.vehicles.model import MOTIONS
 
@@ -57,6 +58,19 @@ def sheet_table(sheet: Sheet) -> Table:
     table.add_column()
     for what, value in (*_masses(sheet), *_motions(sheet), *_steps(sheet)):
         table.add_row(Text(what), Text(value))
+    return table
+
+
+def spread_table(title: str, spreads: Sequence[Spread]) -> Table:
+    """Return how far drawn vehicles spread, a row for each number."""
+    table = Table(title=Text(title), box=SIMPLE, pad_edge=False)
+    table.add_column("")
+    for heading in ("nominal", "least", "mean", "largest"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("unit", no_wrap=True)
+    for spread in spreads:
+        values = (spread.nominal, spread.least, spread.mean, spread.largest)
+        table.add_row(spread.name, *(_number(value) for value in values), Text(spread.unit))
     return table
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.engines.packing import unpack
 from dq_marine.envs.episode import Episode
+from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.actuated import make_actuator_wrench
 from dq_marine.kernel.actuated_task import with_actuators
 from dq_marine.kernel.inertia import twist_from_momentum
@@ -17,6 +18,7 @@ from dq_marine.kernel.spatial import to_fossen
 from dq_marine.kernel.step import StepParameters
 from dq_marine.kernel.task import Task
 from dq_marine.scene import Scene
+from dq_marine.vehicles import Vehicle
 from dq_marine.vehicles.model import MOTIONS
 
 
@@ -38,7 +40,9 @@ class Drive(Protocol):
     def task(self, task: Task) -> Task:
         """Return a task for this drive."""
 
-    def wrench_body(self, parameters: StepParameters, episode: Episode) -> NDArray[np.float64]:
+    def wrench_body(
+        self, vehicle: Vehicle, parameters: StepParameters, episode: Episode
+    ) -> NDArray[np.float64]:
         """Return what acts on the body now, in Fossen's order, shape (6,) [N, N m]."""
 
 
@@ -46,8 +50,7 @@ class WrenchDrive:
     """An action is the thrust and torque of the actuated axes over their limits."""
 
     def __init__(self, limits: NDArray[np.float64]) -> None:
-        """Take the largest force and moment of each axis, shape (6,)."""
-        self._limits = limits
+        """Take the largest force and moment of each axis, shape (6,): which are 0 is the same in all of a pool."""
         self.size = AXES
         self.places = np.flatnonzero(limits)
         self.names = tuple(MOTIONS[axis] for axis in self.places)
@@ -56,9 +59,11 @@ class WrenchDrive:
         """Return the task as it is."""
         return task
 
-    def wrench_body(self, parameters: StepParameters, episode: Episode) -> NDArray[np.float64]:
+    def wrench_body(
+        self, vehicle: Vehicle, parameters: StepParameters, episode: Episode
+    ) -> NDArray[np.float64]:
         """Return the wrench of the last action."""
-        return episode.action * self._limits
+        return episode.action * vehicle.wrench_limits
 
 
 class ActuatorsDrive:
@@ -76,7 +81,9 @@ class ActuatorsDrive:
         """Return the task, made to remember what the channels have reached."""
         return with_actuators(task, self._actuation)
 
-    def wrench_body(self, parameters: StepParameters, episode: Episode) -> NDArray[np.float64]:
+    def wrench_body(
+        self, vehicle: Vehicle, parameters: StepParameters, episode: Episode
+    ) -> NDArray[np.float64]:
         """Return what the actuators do now; their channels are what the memory ends with."""
         values = unpack(self._actuation.rest, episode.memory[-self.size :])
         twist = twist_from_momentum(parameters.inertia, episode.body.momentum)
@@ -88,3 +95,21 @@ def drive_of(scene: Scene) -> Drive:
     if scene.composition.actuation.channels:
         return ActuatorsDrive(scene)
     return WrenchDrive(scene.vehicle.wrench_limits)
+
+
+def commanded(drive: Drive, action: Any) -> NDArray[np.float64]:
+    """Return an action as the kernel takes it, not saturated yet: the compiled code does that.
+
+    Raises:
+        InvalidInputError: it is not numeric, or of a wrong shape.
+    """
+    try:
+        given = np.asarray(action, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidInputError(f"action = {action!r} is not numeric") from error
+    shape = (len(drive.places),)
+    if given.shape != shape:
+        raise InvalidInputError(f"action has shape {given.shape}; give shape {shape}")
+    command = np.zeros(drive.size)
+    command[drive.places] = given
+    return command

@@ -48,8 +48,11 @@ class LaneMemory:
         parameters = [single.base_parameters for single in singles]
         aims = [single.new_aim({}) for single in singles]
         memory = first.task.forget(aims[0])
-        own_parameters = {"water", *differing_fields(parameters)}
+        pool = first.pool
+        own_parameters = {"water", *differing_fields(parameters), *differing_fields(pool.parameters)}
         own_aims = {*first.task.episode_fields, *differing_fields(aims)}
+        if pool.has_choice:
+            own_aims.update(pool.aim_fields)
         self.layout = PeriodLayout(
             lanes,
             packing_of(parameters[0], lanes, lambda path: len(path) == 1 and path[0] not in own_parameters),
@@ -57,6 +60,7 @@ class LaneMemory:
             packing_of(AT_REST, lanes, lambda path: False),
             packing_of(memory, lanes, lambda path: False),
             packing_of(OUTCOME, lanes, lambda path: False),
+            pool.layout,
         )
         self.bodies = -(-n // lanes.width) * lanes.width
         self.arrays = self._arrays(first)
@@ -122,6 +126,7 @@ class LaneMemory:
             measures=arrays.measures[:, index].copy(),
             current_ned=np.array(water.velocity) if water else np.zeros(3),
             periods=int(arrays.periods[index]),
+            vehicle=int(arrays.vehicles[index]),
         )
 
     def set_episode(self, index: int, episode: Episode) -> None:
@@ -134,6 +139,7 @@ class LaneMemory:
         arrays.observations[index] = episode.observation
         arrays.measures[:, index] = episode.measures
         arrays.periods[index] = episode.periods
+        arrays.vehicles[index] = episode.vehicle
 
     def outcome(self, field: int) -> NDArray[Any]:
         """Return one field of the last period's outcomes, shape (n,)."""
@@ -153,6 +159,8 @@ class LaneMemory:
             memories=empty_blocks(layout.memory, self.n, lanes),
             outcomes=empty_blocks(layout.outcome, self.n, lanes),
             generators=np.zeros((bodies, STATE_WORDS), np.uint64),
+            pool=single.pool.rows,
+            vehicles=np.zeros(bodies),
             currents=pack(single.current_draw),
             chosen=np.full((bodies, CHOSEN_COLUMNS), np.nan),
             drawn_currents=np.zeros((bodies, 3)),

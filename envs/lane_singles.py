@@ -142,6 +142,10 @@ def made_singles(
         )
     if not isinstance(vehicle, list | tuple):
         return [single_class(vehicle, **arguments)]
+    if arguments.get("randomise") is not None:
+        raise InvalidInputError(
+            "a list of vehicles and randomise both say what each environment flies; give one of them"
+        )
     if len(vehicle) != n:
         raise InvalidInputError(f"{len(vehicle)} vehicles for {n} environments; give one for each")
     singles = [single_class(one, **arguments) for one in vehicle]

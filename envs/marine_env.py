@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import copy
-import math
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, ClassVar
 
 import gymnasium as gym
@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from dq_marine.checks import finite_number, positive_integer
 from dq_marine.engines.control_period import ACTION_NOT_FINITE, compiled_control_period
-from dq_marine.engines.one_body import REFUSALS
 from dq_marine.engines.packing import pack, structure_type, unpack
-from dq_marine.envs.drive import drive_of
-from dq_marine.envs.episode import Episode
+from dq_marine.envs.drive import commanded, drive_of
+from dq_marine.envs.episode import Episode, restored_generator
+from dq_marine.envs.refusal import integration_report
 from dq_marine.envs.start import AT_ORIGIN, as_chosen, checked_options, drawn_speed_and_fixed_current
+from dq_marine.envs.vehicle_pool import FIXED_VEHICLE, VehicleDraw, prepared_pool
 from dq_marine.envs.view import EpisodeView
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.beginning import CURRENT_DRAWS, CurrentDraw, Drawn, make_beginning, make_draw
@@ -48,7 +49,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
 
     Attributes:
         vehicle: the validated vehicle.
-        scene: what is integrated, with the largest current that may be drawn.
+        pool: the vehicles that episodes fly: that one, or those drawn from it.
+        scene: what is integrated, with the largest current that may be drawn and the pool's first vehicle.
         task: the formulas of the task, for what drives the vehicle.
         drive: what an action does.
         control_period: time between actions [s].
@@ -70,6 +72,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         actuation: str,
         render_mode: str | None,
         record: bool,
+        vehicle_draw: VehicleDraw = FIXED_VEHICLE,
     ) -> None:
         """Check and compose; see the tasks for the arguments."""
         self.vehicle = load_vehicle(vehicle)
@@ -81,7 +84,9 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.current_draw = CurrentDraw(vector3(self.current_ned), self.current_speed)
         largest = np.array([self.current_speed, 0.0, 0.0]) + self.current_ned
         step = self.control_period / self.substeps
-        self.scene = Scene(self.vehicle, current=largest, scheme=scheme, step=step, actuation=actuation)
+        scene_of = partial(Scene, current=largest, scheme=scheme, step=step, actuation=actuation)
+        self.pool = prepared_pool(vehicle_draw.vehicles(self.vehicle), scene_of, self.vehicle_aim)
+        self.scene = self.pool.scene
         self.drive = drive_of(self.scene)
         self.task = self.drive.task(self.task)
         modes = self.metadata["render_modes"]
@@ -94,7 +99,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         bound = self.observation_bound
         self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self.drive.places),), np.float32)
         self.observation_space = gym.spaces.Box(-bound, bound, dtype=np.float32)
-        self.base_parameters = self.scene.parameters_at(step)
+        self.base_parameters = self.pool.parameters[0]
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
         self._view = EpisodeView(self)
@@ -112,6 +117,10 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     @abstractmethod
     def new_aim(self, options: dict[str, Any]) -> Any:
         """Return the task's parameters for an episode."""
+
+    def vehicle_aim(self, vehicle: Vehicle) -> dict[str, Any]:
+        """Return those of the task's parameters that are a vehicle's, by name: the same names for every vehicle."""
+        return {"wrench_limits": tuple(vehicle.wrench_limits.tolist())}
 
     @abstractmethod
     def goal_pose(self, aim: Any) -> tuple[Any, Any] | None:
@@ -133,7 +142,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             options: what not to draw: any of `START_OPTIONS`, in NED and SI units.
 
         Returns:
-            The observation, and info with the task's measures, `is_success` and `current_ned`.
+            The observation, and info with the task's measures, `is_success`, `current_ned` and, where there is a
+            choice, `vehicle`: its number in the pool.
 
         Raises:
             InvalidInputError: an option is unknown or wrong; the episode in progress is untouched.
@@ -141,12 +151,15 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         super().reset(seed=seed)
         chosen = self.checked_options(options)
         aim = self.new_aim(chosen)
+        number = self.pool.drawn(self.np_random)
+        aim = self.pool.fitted(aim, number)
         uniforms = self.np_random.random(CURRENT_DRAWS + self.task.draws)
         drawn = make_draw(self.task)(aim, self.current_draw, tuple(uniforms.tolist()))
-        self._episode = self._new_episode(aim, as_chosen(drawn, chosen))
-        self._parameters = self._parameters_in(self._episode.current_ned)
+        self._episode = self._new_episode(aim, as_chosen(drawn, chosen), number)
+        self._parameters = self._parameters_in(self._episode)
         self._view.begin(self)
-        return self.observation, self._info() | {"current_ned": self._episode.current_ned.copy()}
+        begun = {"vehicle": number} if self.pool.has_choice else {}
+        return self.observation, self._info() | {"current_ned": self._episode.current_ned.copy()} | begun
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
@@ -163,7 +176,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             ResetNeeded: before the first reset.
         """
         episode = self._running("step")
-        command = self._command(action)
+        command = commanded(self.drive, action)
         status, completed, rescued, residual_squared, reward, terminated = self._compiled(
             episode.parameters,
             episode.aim,
@@ -186,7 +199,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         if status != ACCEPTED:
             velocity = self.motion.velocity
             spin, speed = dot(velocity.angular, velocity.angular), dot(velocity.linear, velocity.linear)
-            info["integration"] = self.integration_report(status, completed, residual_squared, spin, speed)
+            report = (self.scene.step, status, completed, residual_squared, spin, speed)
+            info["integration"] = integration_report(*report)
         if self._view.wants_frames:
             self._view.show(self)
         return episode.observation.copy(), reward, terminated != 0.0, False, info
@@ -272,11 +286,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             raise InvalidInputError("the state is not what get_state() returned: it has no entry 'random'")
         template = self._new_episode(self.new_aim({}), AT_ORIGIN)
         episode = template.restored({name: value for name, value in state.items() if name != "random"})
-        random = np.random.default_rng()
-        try:
-            random.bit_generator.state = copy.deepcopy(state["random"])
-        except (TypeError, ValueError, KeyError) as error:
-            raise InvalidInputError(f"state['random'] is not a generator's state: {error}") from error
+        self.pool.check_number(episode.vehicle)
+        random = restored_generator(state["random"])
         self.adopt(episode, random)
         self._view.begin(self)
 
@@ -285,7 +296,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.np_random = random
         self._np_random_seed = seed
         self._episode = episode
-        self._parameters = self._parameters_in(episode.current_ned)
+        self._parameters = self._parameters_in(episode)
 
     @property
     def episode(self) -> Episode:
@@ -295,6 +306,11 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             ResetNeeded: before the first reset.
         """
         return self._running("the episode")
+
+    @property
+    def flown_vehicle(self) -> Vehicle:
+        """The one of the pool that the episode in progress flies."""
+        return self.pool.vehicles[self.episode.vehicle]
 
     @property
     def action_names(self) -> tuple[str, ...]:
@@ -310,18 +326,6 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     def action_size(self) -> int:
         """How many numbers the kernel takes: six axes, or all channels."""
         return self.drive.size
-
-    def integration_report(
-        self, status: int, completed: int, residual_squared: float, spin_squared: float, speed_squared: float
-    ) -> dict[str, Any]:
-        """Return `info["integration"]`: why the integrator refused, and with which velocity over ground."""
-        return {
-            "refused": REFUSALS[status],
-            "residual": math.sqrt(residual_squared) if math.isfinite(residual_squared) else None,
-            "completed_substeps": completed,
-            "step_times_spin": self.scene.step * math.sqrt(spin_squared),
-            "step_times_speed": self.scene.step * math.sqrt(speed_squared),
-        }
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what cannot travel: compiled code and open windows."""
@@ -344,7 +348,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             time=self.time,
             position_ned=np.array(motion.position_ned),
             quaternion_body_to_ned=np.array(motion.attitude),
-            wrench_body=self.drive.wrench_body(self._parameters, episode),
+            wrench_body=self.drive.wrench_body(self.flown_vehicle, self._parameters, episode),
             current_ned=episode.current_ned,
             goal_position_ned=None if goal is None else np.array(goal[0]),
             goal_quaternion_body_to_ned=None if goal is None else np.array(goal[1]),
@@ -366,11 +370,12 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             raise ResetNeeded(f"{what} was asked for before reset(); call reset() first")
         return self._episode
 
-    def _new_episode(self, aim: Any, drawn: Drawn) -> Episode:
-        """Return an episode at its start, by the same formulas that run compiled."""
-        begun = make_beginning(self.scene.composition, self.task)(self.base_parameters, aim, drawn)
+    def _new_episode(self, aim: Any, drawn: Drawn, number: int = 0) -> Episode:
+        """Return an episode of one of the pool's vehicles at its start, by the same formulas that run compiled."""
+        parameters = self.pool.parameters[number]
+        begun = make_beginning(self.scene.composition, self.task)(parameters, aim, drawn)
         return Episode(
-            parameters=pack(self.base_parameters._replace(water=begun.water)),
+            parameters=pack(parameters._replace(water=begun.water)),
             aim=pack(aim),
             state=pack(begun.state),
             memory=pack(begun.memory),
@@ -378,40 +383,23 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             observation=pack(begun.observation).astype(np.float32),
             measures=pack(begun.measures),
             current_ned=np.array(drawn.current_ned),
+            vehicle=number,
         )
-
-    def _command(self, action: Action) -> NDArray[np.float64]:
-        """Return the action as the kernel takes it, not saturated yet: the compiled code does that."""
-        try:
-            given = np.asarray(action, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InvalidInputError(f"action = {action!r} is not numeric") from error
-        if given.shape != self.action_space.shape:
-            raise InvalidInputError(f"action has shape {given.shape}; give shape {self.action_space.shape}")
-        command = np.zeros(self.drive.size)
-        command[self.drive.places] = given
-        return command
 
     def _info(self) -> dict[str, Any]:
         numbers = self._running("info").measures.tolist()
         measures = dict(zip(self.task.measure_names, numbers, strict=True))
         return measures | {"is_success": self.succeeds(measures)}
 
-    def _parameters_in(self, current: NDArray[np.float64]) -> StepParameters:
-        """Return the step's parameters in the given current."""
-        x, y, z = current.tolist()
-        return self.base_parameters._replace(water=self.scene.composition.water.flow((x, y, z)))
+    def _parameters_in(self, episode: Episode) -> StepParameters:
+        """Return the step's parameters of an episode's vehicle in its current."""
+        x, y, z = episode.current_ned.tolist()
+        water = self.scene.composition.water.flow((x, y, z))
+        return self.pool.parameters[episode.vehicle]._replace(water=water)
 
     def checked_options(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
         """Return reset's options as arrays."""
-        chosen = checked_options(options)
-        current = chosen.get("current")
-        if current is not None and current.any() and not self.base_parameters.water:
-            raise InvalidInputError(
-                f"options['current'] = {current.tolist()}, but the environment was made without a current; make "
-                "it with current=<largest speed>"
-            )
-        return chosen
+        return checked_options(options, water_moves=bool(self.base_parameters.water))
 
 
 _NOT_CARRIED = ("_compiled", "_motion", "_view", "drive", "task")

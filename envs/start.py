@@ -39,18 +39,29 @@ def as_chosen(drawn: Drawn, chosen: dict[str, NDArray[np.float64]]) -> Drawn:
     return Drawn(start, values["current"])
 
 
-def checked_options(options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
+def checked_options(options: dict[str, Any] | None, *, water_moves: bool) -> dict[str, NDArray[np.float64]]:
     """Return `reset`'s options as arrays.
 
+    Args:
+        options: as they came.
+        water_moves: whether the environment was made for a current.
+
     Raises:
-        InvalidInputError: a key is unknown or a value wrong.
+        InvalidInputError: a key is unknown or a value wrong, or there can be no current.
     """
     if options is None:
         return {}
     unknown = sorted(set(options) - set(START_OPTIONS))
     if unknown:
         raise InvalidInputError(f"options has unknown keys {unknown}; it takes {list(START_OPTIONS)}")
-    return {name: _checked(name, value) for name, value in options.items()}
+    chosen = {name: _checked(name, value) for name, value in options.items()}
+    current = chosen.get("current")
+    if current is not None and current.any() and not water_moves:
+        raise InvalidInputError(
+            f"options['current'] = {current.tolist()}, but the environment was made without a current; make it with "
+            "current=<largest speed>"
+        )
+    return chosen
 
 
 def _checked(name: str, value: Any) -> NDArray[np.float64]:

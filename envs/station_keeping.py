@@ -18,9 +18,11 @@ from dq_marine.checks import finite_array, finite_number, unit_quaternion
 from dq_marine.envs.marine_env import MarineEnv
 from dq_marine.envs.station_keeping_task import INTEGRAL_BOUND, SPEED_BOUND, TASK, Aim, Weights
 from dq_marine.envs.vector_env import DQMarineVectorEnv
+from dq_marine.envs.vehicle_pool import RandomisationChoice, VehicleDraw
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.quaternion import Quaternion
 from dq_marine.kernel.vector3 import Vector3
+from dq_marine.randomisation import Randomisation
 from dq_marine.vehicles import Vehicle, load_vehicle
 
 LARGEST_WORKSPACE = 1e4
@@ -100,7 +102,7 @@ class StationKeepingEnv(MarineEnv):
         self,
         vehicle: Vehicle | str | os.PathLike[str] = "bluerov2_heavy",
         *,
-        current: float | Sequence[float] = 0.3,
+        current: float | Sequence[float] | None = None,
         control_period: float = 0.1,
         substeps: int = 4,
         scheme: str = "midpoint",
@@ -111,13 +113,16 @@ class StationKeepingEnv(MarineEnv):
         workspace_radius: float | None = None,
         render_mode: str | None = None,
         record: bool = False,
+        randomise: RandomisationChoice | None = None,
+        vehicle_pool: int = 256,
+        vehicle_seed: int = 0,
     ) -> None:
         """Check and compose the environment.
 
         Args:
             vehicle: a catalogue name, the path of a TOML file, or a `Vehicle`.
             current: a speed [m/s]: each episode draws a horizontal current of up to it, of any direction; or
-                three numbers: this current in NED, always.
+                three numbers: this current in NED, always. None: up to what `randomise` says, else to 0.3 m/s.
             control_period: time between actions [s].
             substeps: integrator steps in a control period.
             scheme: the integrator's drift, by name.
@@ -130,6 +135,10 @@ class StationKeepingEnv(MarineEnv):
             workspace_radius: episodes end beyond this distance from the goal [m]; None for 6 m, growing likewise.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.
+            randomise: let each episode fly another vehicle, drawn as a randomisation says: "default", the name of
+                another one that ships, the path of a TOML file, or a `dq_marine.randomisation.Randomisation`.
+            vehicle_pool: how many vehicles are drawn beforehand; each episode takes one of them.
+            vehicle_seed: of these draws: environments of one seed share their vehicles.
 
         Raises:
             InvalidInputError: a value is wrong.
@@ -153,15 +162,18 @@ class StationKeepingEnv(MarineEnv):
                 f"start_radius = {self.start_radius:g} m; give 0 or more and less than the workspace_radius, "
                 f"{self.workspace_radius:g} m"
             )
+        randomisation = None if randomise is None else Randomisation.load(randomise)
+        draw = VehicleDraw(randomisation, vehicle_pool, vehicle_seed)
         super().__init__(
             loaded,
-            current=current,
+            current=draw.current_or_default(current),
             control_period=control_period,
             substeps=substeps,
             scheme=scheme,
             actuation=actuation,
             render_mode=render_mode,
             record=record,
+            vehicle_draw=draw,
         )
 
     @property
@@ -186,7 +198,6 @@ class StationKeepingEnv(MarineEnv):
         )
         x, y, z = position.tolist()
         q0, q1, q2, q3 = q.tolist()
-        limits = self.vehicle.wrench_limits
         return Aim(
             (x, y, z),
             (q0, q1, q2, q3),
@@ -194,9 +205,11 @@ class StationKeepingEnv(MarineEnv):
             1.0 if self.vehicle.hydrostatics is None else 0.0,
             self.workspace_radius,
             self.control_period,
-            tuple(limits.tolist()),
-            float(len(self.drive.places)),
-            Weights(**{field.name: float(getattr(self.reward, field.name)) for field in fields(self.reward)}),
+            axes=float(len(self.drive.places)),
+            weights=Weights(
+                **{field.name: float(getattr(self.reward, field.name)) for field in fields(self.reward)}
+            ),
+            **self.vehicle_aim(self.vehicle),
         )
 
     def goal_pose(self, aim: Aim) -> tuple[Vector3, Quaternion]:

@@ -20,6 +20,7 @@ from dq_marine.engines.lane_rows import (
     store_rows,
 )
 from dq_marine.engines.lane_type import Lanes
+from dq_marine.engines.lane_vehicles import PoolLayout, make_renew_vehicle
 from dq_marine.engines.packing import make_load, structure_type
 from dq_marine.engines.pcg64 import next_uniform
 from dq_marine.kernel.beginning import (
@@ -41,7 +42,10 @@ from dq_marine.kernel.vector3 import dot
 
 @dataclass(frozen=True)
 class PeriodLayout:
-    """How environments lie in memory: the type of their own numbers, and a packing for each structure."""
+    """How environments lie in memory: the type of their own numbers, a packing for each structure, and a pool's layout.
+
+    There is no pool where episodes keep their vehicle.
+    """
 
     lanes: Lanes
     parameters: Packing
@@ -49,12 +53,13 @@ class PeriodLayout:
     state: Packing
     memory: Packing
     outcome: Packing
+    pool: PoolLayout | None = None
 
     @property
     def key(self) -> str:
         """Text that tells layouts apart."""
         packings = (self.parameters, self.aim, self.state, self.memory, self.outcome)
-        return "|".join([str(self.lanes), *(packing.key for packing in packings)])
+        return "|".join([str(self.lanes), *(packing.key for packing in packings), str(self.pool)])
 
 
 class PeriodArrays(NamedTuple):
@@ -72,6 +77,8 @@ class PeriodArrays(NamedTuple):
         memories: of the task.
         outcomes: (status, completed, rescued, residual squared, spin squared, speed squared) of the last period.
         generators: random number generators, see `engines.pcg64`, shape (bodies, 4).
+        pool: vehicles to draw from, a row each, see `engines.lane_vehicles`.
+        vehicles: numbers of those drawn.
         currents: `CurrentDraw`, packed.
         chosen: what is not drawn at a `begin`: position, quaternion, velocity (Fossen's order), current; NaN if drawn.
         drawn_currents: of the episodes begun last, shape (bodies, 3).
@@ -95,6 +102,8 @@ class PeriodArrays(NamedTuple):
     memories: Any
     outcomes: Any
     generators: Any
+    pool: Any
+    vehicles: Any
     currents: Any
     chosen: Any
     drawn_currents: Any
@@ -194,6 +203,7 @@ def compiled_begin(composition: Composition, task: Task, layout: PeriodLayout) -
     load_parameters, load_aim, load_state = loads.parameters, loads.aim, loads.state
     load_memory, load_flags = loads.memory, loads.flags
     store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
+    store_aim, renew_vehicle = stores.aim, make_renew_vehicle(layout.pool, layout.lanes)
     begin_one, motion_of = make_begin_one(composition, task), make_motion(composition)
     observe, judge = task.observe, task.judge
 
@@ -211,11 +221,13 @@ def compiled_begin(composition: Composition, task: Task, layout: PeriodLayout) -
                 current = spread((0.0, 0.0, 0.0), motion.position_ned[0])
                 going_on = Beginning(parameters.water, state, memory, observation, measures), current
                 bodies = lane_numbers(motion.position_ned[0], block)
+                parameters, aim = renew_vehicle(renewed, arrays, block, bodies, parameters, aim)
                 arguments = (arrays.generators, arrays.chosen, arrays.currents, bodies, parameters, aim)
                 begun, current = select_call(renewed, begin_one, arguments, going_on)
                 store_state(arrays.states, block, begun.state)
                 store_memory(arrays.memories, block, begun.memory)
                 store_parameters(arrays.parameters, block, in_water(parameters, begun.water))
+                store_aim(arrays.aims, block, aim)
                 store_rows(arrays.observations, block, begun.observation)
                 store_rows(arrays.drawn_currents, block, current)
                 store_columns(arrays.measures, block, begun.measures)
@@ -239,6 +251,7 @@ def compiled_period(
     load_actions, saturated = make_load_rows(layout.lanes, size), make_saturated(size)
     store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
     store_aim, store_outcome = stores.aim, stores.outcome
+    renew_vehicle = make_renew_vehicle(layout.pool, layout.lanes)
     control_period, begin_one = make_control_period(composition, task), make_begin_one(composition, task)
     motion_of = make_motion(composition)
 
@@ -286,6 +299,9 @@ def compiled_period(
             if some(renewed):
                 default_aim = load_aim(arrays.shared_aim, arrays.default_aims, block)
                 bodies = lane_numbers(verdict.reward, block)
+                parameters, default_aim = renew_vehicle(
+                    renewed, arrays, block, bodies, parameters, default_aim
+                )
                 current = spread((0.0, 0.0, 0.0), verdict.reward)
                 arguments = (
                     arrays.generators,
