@@ -42,6 +42,9 @@ LARGEST_DECAY = 50.0
 HALVINGS = 7
 """Of the exponent, before its series is taken and squared as often."""
 
+SQUARED = 128.0
+"""2^HALVINGS."""
+
 
 def polynomial6(c: tuple[float, float, float, float, float, float], x: float) -> float:
     """Return c_0 + c_1 x + ... + c_5 x^5."""
@@ -70,7 +73,7 @@ def sine_and_cosine(angle: float) -> tuple[float, float]:
 
 def decay(exponent: float) -> float:
     """Return exp(-exponent) for an exponent of 0 or more, to a few 1e-14 of it; beyond 50, exp(-50)."""
-    x = min(exponent, LARGEST_DECAY) * (-1.0 / 2**HALVINGS)
+    x = min(exponent, LARGEST_DECAY) * (-1.0 / SQUARED)
     result = 1.0 + x
     term = x
     for count in range(2, 12):

@@ -1,0 +1,22 @@
+"""Sea and wind: what they are, and the forces they make.
+
+    Scene("remus100", weather=(Sea(Jonswap(height=1.0, period=6.0), direction=0.5), Wind(8.0, direction_from=3.0)))
+
+Angles are in radians from north towards east. Waves go to their `direction`; wind comes from its `direction_from`.
+"""
+
+from dq_marine.weather.choice import Weather, weather_of
+from dq_marine.weather.loads import WaveLoads
+from dq_marine.weather.sea import Sea
+from dq_marine.weather.spectra import Jonswap, ModifiedPiersonMoskowitz, PiersonMoskowitz, Spectrum
+
+__all__ = [
+    "Jonswap",
+    "ModifiedPiersonMoskowitz",
+    "PiersonMoskowitz",
+    "Sea",
+    "Spectrum",
+    "WaveLoads",
+    "Weather",
+    "weather_of",
+]
