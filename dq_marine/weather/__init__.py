@@ -6,17 +6,23 @@ Angles are in radians from north towards east. Waves go to their `direction`; wi
 """
 
 from dq_marine.weather.choice import Weather, weather_of
+from dq_marine.weather.floating import Radiation
 from dq_marine.weather.loads import WaveLoads
+from dq_marine.weather.rao import ForceRAO
+from dq_marine.weather.rao_files import read_force_rao
 from dq_marine.weather.sea import Sea
 from dq_marine.weather.spectra import Jonswap, ModifiedPiersonMoskowitz, PiersonMoskowitz, Spectrum
 
 __all__ = [
+    "ForceRAO",
     "Jonswap",
     "ModifiedPiersonMoskowitz",
     "PiersonMoskowitz",
+    "Radiation",
     "Sea",
     "Spectrum",
     "WaveLoads",
     "Weather",
+    "read_force_rao",
     "weather_of",
 ]

@@ -32,8 +32,8 @@ def submerged_wave_term(sea: Sea, vehicle: Vehicle) -> ForceTerm:
 
     Froude-Krylov force and diffraction are (rho V E + M_A) times the water's acceleration, and linear damping acts on
     the velocity through the water that the waves move. The hull is cut into stations along its length, over which
-    volume, added mass and damping are spread evenly: waves as short as the hull are averaged along it, but not across it. Good
-    for waves longer than some five times the hull's width and height, and for hulls that stay submerged.
+    volume, added mass and damping are spread evenly: waves as short as the hull are averaged along it, but not across
+    it. Good for waves longer than some five times the hull's width and height, and for hulls that stay submerged.
     """
     mass = vehicle.buoyancy.water_density * vehicle.buoyancy.volume
     added = np.array(vehicle.added_mass)
