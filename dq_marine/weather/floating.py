@@ -84,6 +84,12 @@ def waterplane_stiffness(vehicle: Vehicle) -> Array | None:
     return np.asarray(hydrostatics.stiffness_about_origin(specific_weight, vehicle.buoyant_force))
 
 
+def draft_of(vehicle: Vehicle, stiffness: Array) -> float:
+    """Return a vessel's mean draft [m], the volume over the area of the waterplane, from its stiffness in heave."""
+    specific_weight = vehicle.buoyancy.water_density * STANDARD_GRAVITY
+    return float(vehicle.buoyancy.volume * specific_weight / stiffness[0, 0])
+
+
 def long_wave_rao(
     sea: Sea, vehicle: Vehicle, stiffness: Array, radiation: Radiation | None = None
 ) -> ForceRAO:
@@ -144,8 +150,7 @@ class Water:
     def of(sea: Sea, vehicle: Vehicle, stiffness: Array) -> Water:
         """Return the water at a vehicle; its draft is the volume over the waterplane's area."""
         k, omega = sea.wave_numbers, sea.frequencies
-        specific_weight = vehicle.buoyancy.water_density * STANDARD_GRAVITY
-        draft = vehicle.buoyancy.volume * specific_weight / float(stiffness[0, 0])
+        draft = draft_of(vehicle, stiffness)
         depth = math.inf if sea.depth is None else sea.depth
         if draft >= depth:
             raise InvalidInputError(
