@@ -20,7 +20,7 @@ from dq_marine.kernel.step import Composition, StepParameters
 from dq_marine.restoring_terms import checked_hydrostatics, hydrostatic_terms, natural_frequencies
 from dq_marine.terms import ForceTerm
 from dq_marine.vehicles import Vehicle, load_vehicle
-from dq_marine.weather import weather_of
+from dq_marine.weather import weather_of, weather_terms
 
 if TYPE_CHECKING:
     from dq_marine.engines.batch import Batch
@@ -73,7 +73,7 @@ class Scene:
             hydrostatics: "linear": of a vessel that floats, its waterplane's restoring force for small motions, and of
                 any other, weight and buoyancy under water; or "hull": buoyancy of the boxes of its hull at any depth
                 and attitude, so that it may capsize, dive or leave the water.
-            weather: of `dq_marine.weather`: seas and winds, with the time that the body's clock shows.
+            weather: seas and winds, see `dq_marine.weather`.
             forces: of your own, see `dq_marine.terms.ForceTerm`.
             actuation: "wrench", a force and moment on the body; or "thrusters", the vehicle's thrusters, azimuths and
                 fins, with their limits and lags: see `ActuatedBody.actuate`.
@@ -99,7 +99,8 @@ class Scene:
         mass_matrix = self.vehicle.mass_matrix
         damping = vehicle_damping(self.vehicle, l_stable=kick == "l_stable")
         restoring = hydrostatic_terms(self.vehicle, self.hydrostatics)
-        present = (*restoring, *self._weather_terms(), *self.forces)
+        of_weather = checked_forces(weather_terms(self.weather, self.vehicle, self.current_ned))
+        present = (*restoring, *of_weather, *self.forces)
         actuators = actuation_term(self.vehicle) if actuation == "thrusters" else None
         self._assembly = Assembly(
             mass_matrix, present, damping, self.current_ned, scheme, order, actuators=actuators
@@ -194,11 +195,6 @@ class Scene:
         included, of a vessel that floats.
         """
         return natural_frequencies(self.vehicle, self.hydrostatics)
-
-    def _weather_terms(self) -> tuple[ForceTerm, ...]:
-        """Return the forces of sea and wind."""
-        made = [part.terms(self.vehicle, self.current_ned) for part in self.weather]
-        return checked_forces([term for terms in made for term in terms])
 
     def _check_direction_of_time(self) -> None:
         if self.step == 0.0:

@@ -5,7 +5,7 @@
 Angles are in radians from north towards east. Waves go to their `direction`; wind comes from its `direction_from`.
 """
 
-from dq_marine.weather.choice import Weather, weather_of
+from dq_marine.weather.choice import Weather, weather_of, weather_terms
 from dq_marine.weather.drift import DriftCoefficients, SlowDrift
 from dq_marine.weather.floating import Radiation
 from dq_marine.weather.loads import WaveLoads
@@ -31,4 +31,5 @@ __all__ = [
     "Windage",
     "read_force_rao",
     "weather_of",
+    "weather_terms",
 ]

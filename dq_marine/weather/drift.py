@@ -13,7 +13,7 @@ from dq_marine.kernel.wave_drift import DriftRoots, WaveDrift, wave_drift
 from dq_marine.terms import ForceTerm
 from dq_marine.vehicles import Vehicle
 from dq_marine.vehicles.model import STANDARD_GRAVITY
-from dq_marine.weather.floating import draft_of, waterplane_stiffness
+from dq_marine.weather.floating import draft_of
 from dq_marine.weather.sea import Sea, table
 
 Array = NDArray[np.float64]
@@ -119,7 +119,7 @@ class SlowDrift:
         return (ForceTerm("slow drift", wave_drift, parameters),)
 
     def _estimated(self, vehicle: Vehicle) -> DriftCoefficients:
-        stiffness = waterplane_stiffness(vehicle)
+        stiffness = vehicle.waterplane_stiffness
         if stiffness is None:
             raise InvalidInputError(
                 f"{vehicle.name} is submerged, and its drift cannot be estimated; give SlowDrift(sea, coefficients)"

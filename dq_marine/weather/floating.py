@@ -75,15 +75,6 @@ class Radiation:
         return added, damping
 
 
-def waterplane_stiffness(vehicle: Vehicle) -> Array | None:
-    """Return the stiffness of heave, roll and pitch about the body origin, shape (3, 3); None for what is submerged."""
-    hydrostatics = getattr(vehicle, "hydrostatics", None)
-    if hydrostatics is None:
-        return None
-    specific_weight = vehicle.buoyancy.water_density * STANDARD_GRAVITY
-    return np.asarray(hydrostatics.stiffness_about_origin(specific_weight, vehicle.buoyant_force))
-
-
 def draft_of(vehicle: Vehicle, stiffness: Array) -> float:
     """Return a vessel's mean draft [m], the volume over the area of the waterplane, from its stiffness in heave."""
     specific_weight = vehicle.buoyancy.water_density * STANDARD_GRAVITY

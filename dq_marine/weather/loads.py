@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from dq_marine.errors import InvalidInputError
 from dq_marine.terms import ForceTerm
 from dq_marine.vehicles import Vehicle
-from dq_marine.weather.floating import Radiation, long_wave_rao, waterplane_stiffness
+from dq_marine.weather.floating import Radiation, long_wave_rao
 from dq_marine.weather.rao import ForceRAO
 from dq_marine.weather.sea import Sea
 from dq_marine.weather.submerged import submerged_wave_term
@@ -57,7 +57,7 @@ class WaveLoads:
         """Return the forces on a vehicle in a current [m/s], shape (3,); the current takes no part."""
         if self.rao is not None:
             return (self.rao.term(self.sea),)
-        own = waterplane_stiffness(vehicle) if self.stiffness is None else _checked_stiffness(self.stiffness)
+        own = vehicle.waterplane_stiffness if self.stiffness is None else _checked_stiffness(self.stiffness)
         if own is None:
             return (submerged_wave_term(self.sea, vehicle),)
         return (long_wave_rao(self.sea, vehicle, own, self.radiation).term(self.sea),)

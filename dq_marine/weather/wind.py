@@ -13,7 +13,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.wind import WindForce, gusty_wind, steady_wind
 from dq_marine.terms import ForceTerm, vector3
 from dq_marine.vehicles import Vehicle
-from dq_marine.weather.floating import draft_of, waterplane_stiffness
+from dq_marine.weather.floating import draft_of
 from dq_marine.weather.gusts import gust_harmonics, mean_speed
 from dq_marine.weather.sea import MOST_COMPONENTS, generator
 
@@ -71,7 +71,7 @@ class Windage:
         Raises:
             InvalidInputError: the vehicle is submerged.
         """
-        stiffness = waterplane_stiffness(vehicle)
+        stiffness = vehicle.waterplane_stiffness
         if stiffness is None:
             raise InvalidInputError(
                 f"{vehicle.name} is submerged, where there is no wind; give Wind(..., windage=Windage(...)) for what "
