@@ -83,12 +83,29 @@ class Spectrum(ABC):
         relative = np.asarray(frequencies, dtype=np.float64) / self.peak_frequency
         return self._scale * shape_at(relative, self.enhancement)
 
+    def moment(self, order: int) -> float:
+        """Return m_n, the integral of omega^n S [m^2 (rad/s)^n], of order n from 0 to 3."""
+        within = running_integral(GRID**order * shape_at(GRID, self.enhancement), GRID)[-1]
+        beyond = math.pow(HIGHEST, order - 4.0) / (4.0 - order)  # there, S goes with omega^-5
+        return self._scale * math.pow(self.peak_frequency, order + 1.0) * (float(within) + beyond)
+
+    @property
+    def mean_of_periods(self) -> float:
+        """T1 = 2 pi m0/m1 [s]."""
+        return 2.0 * math.pi * self.moment(0) / self.moment(1)
+
+    @property
+    def zero_crossing_period(self) -> float:
+        """Tz = 2 pi sqrt(m0/m2), the mean time between upward crossings of still water [s]."""
+        return 2.0 * math.pi * math.sqrt(self.moment(0) / self.moment(2))
+
     @cached_property
     def _scale(self) -> float:
         """What makes m0 = Hs^2/16."""
-        beyond = 0.2 * -math.expm1(-1.25 * HIGHEST**-4.0)  # where the peak's enhancement is 1
-        area = float(running_integral(shape_at(GRID, self.enhancement), GRID)[-1]) + beyond
-        return self.significant_height**2 / 16.0 / (area * self.peak_frequency)
+        area = float(running_integral(shape_at(GRID, self.enhancement), GRID)[-1]) + 0.25 * math.pow(
+            HIGHEST, -4.0
+        )
+        return self.significant_height * self.significant_height / 16.0 / (area * self.peak_frequency)
 
 
 def running_integral(density: Array, places: Array) -> Array:
