@@ -13,7 +13,7 @@ from dq_marine.vehicles import Vehicle
 from dq_marine.weather.floating import Radiation, long_wave_rao
 from dq_marine.weather.rao import ForceRAO
 from dq_marine.weather.sea import Sea
-from dq_marine.weather.submerged import submerged_wave_term
+from dq_marine.weather.submerged import submerged_terms
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,7 @@ class WaveLoads:
             return (self.rao.term(self.sea),)
         own = vehicle.waterplane_stiffness if self.stiffness is None else _checked_stiffness(self.stiffness)
         if own is None:
-            return (submerged_wave_term(self.sea, vehicle),)
+            return submerged_terms(self.sea, vehicle)
         return (long_wave_rao(self.sea, vehicle, own, self.radiation).term(self.sea),)
 
 

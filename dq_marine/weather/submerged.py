@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.kernel.wave_drag import WaveDrag, wave_drag_in_deep_water, wave_drag_over_bottom
 from dq_marine.kernel.waves import (
     SubmergedHull,
     SubmergedWaves,
@@ -25,6 +26,19 @@ MOST_STATIONS = 12
 
 COUNTED_ENERGY = 0.95
 """Share of a sea's energy whose waves decide how finely a hull is cut."""
+
+
+def submerged_terms(sea: Sea, vehicle: Vehicle) -> tuple[ForceTerm, ...]:
+    """Return the forces of waves on a submerged vehicle, with drag where it has quadratic damping."""
+    quadratic = vehicle.quadratic_damping[:3]
+    if not quadratic.any():
+        return (submerged_wave_term(sea, vehicle),)
+    drag = wave_drag_in_deep_water if sea.depth is None else wave_drag_over_bottom
+    parameters = WaveDrag(sea.field, vector3(np.array(vehicle.buoyancy.center)), vector3(quadratic))
+    return (
+        submerged_wave_term(sea, vehicle),
+        ForceTerm("drag in waves", drag, parameters, uses_velocity=True),
+    )
 
 
 def submerged_wave_term(sea: Sea, vehicle: Vehicle) -> ForceTerm:

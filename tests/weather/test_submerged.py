@@ -18,7 +18,7 @@ UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 RHO = 1000.0
 
 
-def sphere(radius=0.2, damping=0.0):
+def sphere(radius=0.2, damping=0.0, drag=0.0):
     """A neutral sphere: added mass half its displacement."""
     volume = 4.0 / 3.0 * math.pi * radius**3
     mass, base = RHO * volume, load_vehicle("bluerov2_heavy")
@@ -30,7 +30,7 @@ def sphere(radius=0.2, damping=0.0):
                            "inertia_about": "body_origin"},
             "buoyancy": {"volume": volume, "center": (0.0, 0.0, 0.0), "water_density": RHO},
             "added_mass": (0.5 * mass,) * 3 + (0.0,) * 3,
-            "damping": {"linear": (damping,) * 3 + (0.0,) * 3, "quadratic": (0.0,) * 6},
+            "damping": {"linear": (damping,) * 3 + (0.0,) * 3, "quadratic": (drag,) * 3 + (0.0,) * 3},
             "dimensions": {"length": 2 * radius, "width": 2 * radius, "height": 2 * radius, "shape": "ellipsoid"},
             "limits": {"wrench": (mass,) * 3 + (0.0,) * 3},
             "thrusters": (),
@@ -61,8 +61,8 @@ def test_the_force_on_a_small_sphere_is_one_and_a_half_times_that_on_its_water()
         assert np.abs(force[[1, 3, 4, 5]]).max() < 1e-12
 
 
-@pytest.mark.parametrize(("depth", "damping"), [(None, 0.0), (12.0, 20.0)])
-def test_a_small_neutral_body_goes_round_with_the_water(depth, damping):
+@pytest.mark.parametrize(("depth", "damping", "drag"), [(None, 0.0, 0.0), (12.0, 20.0, 500.0)])
+def test_a_small_neutral_body_goes_round_with_the_water(depth, damping, drag):
     """Started with the water's velocity it stays with it: circles, or over a bottom ellipses, of known half axes."""
     sea = wave(height=0.05, depth=depth)
     omega, k, a = float(sea.frequencies[0]), float(sea.wave_numbers[0]), float(sea.amplitudes[0])
@@ -71,7 +71,7 @@ def test_a_small_neutral_body_goes_round_with_the_water(depth, damping):
         across, down = a * math.exp(-k * z), a * math.exp(-k * z)
     else:
         across, down = (a * f(k * (depth - z)) / math.sinh(k * depth) for f in (math.cosh, math.sinh))
-    body = Scene(sphere(damping=damping), step=0.02, weather=[sea]).stepper()
+    body = Scene(sphere(damping=damping, drag=drag), step=0.02, weather=[sea]).stepper()
     start = np.array([across * math.sin(phase), 0.0, z - down * math.cos(phase)])
     body.reset(
         start, velocity_body=(across * omega * math.cos(phase), 0, down * omega * math.sin(phase), 0, 0, 0)
