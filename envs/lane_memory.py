@@ -65,7 +65,7 @@ class LaneMemory:
         self.bodies = -(-n // lanes.width) * lanes.width
         self.arrays = self._arrays(first)
         self._like_parameters = parameters[0]
-        self._action_size = first.action_size
+        self._action_size = first.drive.size
         self.fill(self.layout.parameters, self.arrays.shared, self.arrays.parameters, parameters)
         self._own_aims = frozenset(own_aims)
         self.set_default_aims(aims)

@@ -317,16 +317,6 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """What each number of an action drives: axes such as "surge", or channels of the vehicle's actuators."""
         return self.drive.names
 
-    @property
-    def action_places(self) -> NDArray[np.intp]:
-        """Where the numbers of an action stand among the `action_size` that the kernel takes."""
-        return self.drive.places
-
-    @property
-    def action_size(self) -> int:
-        """How many numbers the kernel takes: six axes, or all channels."""
-        return self.drive.size
-
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what cannot travel: compiled code and open windows."""
         return {name: value for name, value in self.__dict__.items() if name not in _NOT_CARRIED}
