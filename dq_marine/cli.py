@@ -15,6 +15,8 @@ import typer
 from dq_marine import __version__
 from dq_marine.command_basics import HELP_OPTIONS, Commands, console, examples
 from dq_marine.errors import InvalidInputError
+from dq_marine.sea_commands import EXAMPLES as SEA_EXAMPLES
+from dq_marine.sea_commands import sea
 from dq_marine.vehicle_commands import app as vehicles_app
 
 app = typer.Typer(
@@ -27,6 +29,7 @@ app = typer.Typer(
     context_settings=HELP_OPTIONS,
 )
 app.add_typer(vehicles_app, name="vehicles")
+app.command(epilog=SEA_EXAMPLES)(sea)
 
 
 class Algorithm(StrEnum):

@@ -20,6 +20,7 @@ from dq_marine.kernel.step import Composition, StepParameters
 from dq_marine.restoring_terms import checked_hydrostatics, hydrostatic_terms, natural_frequencies
 from dq_marine.terms import ForceTerm
 from dq_marine.vehicles import Vehicle, load_vehicle
+from dq_marine.weather import weather_of, weather_terms
 
 if TYPE_CHECKING:
     from dq_marine.engines.batch import Batch
@@ -41,6 +42,7 @@ class Scene:
         step: step size h [s].
         kick: how damping is taken in.
         hydrostatics: how buoyancy is computed.
+        weather: sea and wind.
         forces: of the user's own.
         actuation: what drives the vehicle.
     """
@@ -55,6 +57,7 @@ class Scene:
         order: int = 2,
         kick: str = "l_stable",
         hydrostatics: str = "linear",
+        weather: Sequence[Any] = (),
         forces: Sequence[ForceTerm] = (),
         actuation: str = "wrench",
     ) -> None:
@@ -70,6 +73,7 @@ class Scene:
             hydrostatics: "linear": of a vessel that floats, its waterplane's restoring force for small motions, and of
                 any other, weight and buoyancy under water; or "hull": buoyancy of the boxes of its hull at any depth
                 and attitude, so that it may capsize, dive or leave the water.
+            weather: seas and winds, see `dq_marine.weather`.
             forces: of your own, see `dq_marine.terms.ForceTerm`.
             actuation: "wrench", a force and moment on the body; or "thrusters", the vehicle's thrusters, azimuths and
                 fins, with their limits and lags: see `ActuatedBody.actuate`.
@@ -89,11 +93,14 @@ class Scene:
         if actuation not in ACTUATIONS:
             raise InvalidInputError(f"actuation = {actuation!r} is unknown; give one of {list(ACTUATIONS)}")
         self.actuation = actuation
+        self.weather = weather_of(weather)
         self.forces = checked_forces(forces)
         self._check_restoring_step()
         mass_matrix = self.vehicle.mass_matrix
         damping = vehicle_damping(self.vehicle, l_stable=kick == "l_stable")
-        present = (*hydrostatic_terms(self.vehicle, self.hydrostatics), *self.forces)
+        restoring = hydrostatic_terms(self.vehicle, self.hydrostatics)
+        of_weather = checked_forces(weather_terms(self.weather, self.vehicle, self.current_ned))
+        present = (*restoring, *of_weather, *self.forces)
         actuators = actuation_term(self.vehicle) if actuation == "thrusters" else None
         self._assembly = Assembly(
             mass_matrix, present, damping, self.current_ned, scheme, order, actuators=actuators
@@ -119,6 +126,7 @@ class Scene:
             "order": self.order,
             "kick": self.kick,
             "hydrostatics": self.hydrostatics,
+            "weather": self.weather,
             "forces": self.forces,
             "actuation": self.actuation,
         }

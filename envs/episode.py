@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.checks import finite_array
+from dq_marine.checks import finite_array, finite_number
 from dq_marine.engines.one_body import AT_REST
 from dq_marine.engines.packing import unpack
 from dq_marine.errors import InvalidInputError
@@ -34,6 +34,7 @@ class Episode:
         current_ned: of the water [m/s], shape (3,).
         periods: control periods since reset.
         vehicle: number of the vehicle in the environment's pool; 0 without one.
+        clock: time at reset [s], drawn where the weather changes, else 0.
     """
 
     parameters: NDArray[np.float64]
@@ -46,6 +47,7 @@ class Episode:
     current_ned: NDArray[np.float64]
     periods: int = 0
     vehicle: int = 0
+    clock: float = 0.0
 
     @property
     def body(self) -> BodyState:
@@ -55,7 +57,9 @@ class Episode:
     def to_dict(self) -> dict[str, Any]:
         """Return copies of everything."""
         values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {name: value if name in COUNTS else value.copy() for name, value in values.items()}
+        return {
+            name: value.copy() if isinstance(value, np.ndarray) else value for name, value in values.items()
+        }
 
     def restored(self, saved: dict[str, Any]) -> Episode:
         """Return the episode saved by `to_dict`, whose arrays must have the sizes of this one's.
@@ -67,12 +71,13 @@ class Episode:
         if set(saved) != set(own):
             raise InvalidInputError(f"the state has entries {sorted(saved)}; it needs {sorted(own)}")
         periods, vehicle = (int(saved[name]) for name in COUNTS)
+        clock = finite_number("state['clock']", saved["clock"])
         arrays = {
             name: finite_array(f"state[{name!r}]", saved[name], value.size).astype(value.dtype)
             for name, value in own.items()
-            if name not in COUNTS
+            if isinstance(value, np.ndarray)
         }
-        return Episode(**arrays, periods=periods, vehicle=vehicle)
+        return Episode(**arrays, periods=periods, vehicle=vehicle, clock=clock)
 
 
 def restored_generator(saved: Any) -> np.random.Generator:

@@ -61,6 +61,7 @@ class LaneMemory:
             packing_of(memory, lanes, lambda path: False),
             packing_of(OUTCOME, lanes, lambda path: False),
             pool.layout,
+            first.restless,
         )
         self.bodies = -(-n // lanes.width) * lanes.width
         self.arrays = self._arrays(first)
@@ -127,6 +128,7 @@ class LaneMemory:
             current_ned=np.array(water.velocity) if water else np.zeros(3),
             periods=int(arrays.periods[index]),
             vehicle=int(arrays.vehicles[index]),
+            clock=float(arrays.clocks[index]),
         )
 
     def set_episode(self, index: int, episode: Episode) -> None:
@@ -140,6 +142,7 @@ class LaneMemory:
         arrays.measures[:, index] = episode.measures
         arrays.periods[index] = episode.periods
         arrays.vehicles[index] = episode.vehicle
+        arrays.clocks[index] = episode.clock
 
     def outcome(self, field: int) -> NDArray[Any]:
         """Return one field of the last period's outcomes, shape (n,)."""
@@ -165,6 +168,7 @@ class LaneMemory:
             chosen=np.full((bodies, CHOSEN_COLUMNS), np.nan),
             drawn_currents=np.zeros((bodies, 3)),
             periods=np.zeros(bodies),
+            clocks=np.zeros(bodies),
             ended=np.zeros(bodies, np.bool_),
             observations=aligned_zeros((bodies, observed), np.float32),
             final_observations=aligned_zeros((bodies, observed), np.float32),

@@ -6,7 +6,6 @@ import copy
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any, ClassVar
 
 import gymnasium as gym
@@ -24,7 +23,14 @@ from dq_marine.envs.start import AT_ORIGIN, as_chosen, checked_options, drawn_sp
 from dq_marine.envs.vehicle_pool import FIXED_VEHICLE, VehicleDraw, prepared_pool
 from dq_marine.envs.view import EpisodeView
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.beginning import CURRENT_DRAWS, CurrentDraw, Drawn, make_beginning, make_draw
+from dq_marine.kernel.beginning import (
+    CLOCK_SPAN,
+    CURRENT_DRAWS,
+    CurrentDraw,
+    Drawn,
+    make_beginning,
+    make_draw,
+)
 from dq_marine.kernel.body import Motion
 from dq_marine.kernel.spatial import to_fossen
 from dq_marine.kernel.step import ACCEPTED, StepParameters, make_motion
@@ -34,6 +40,7 @@ from dq_marine.scene import Scene
 from dq_marine.terms import vector3
 from dq_marine.vehicles import Vehicle, load_vehicle
 from dq_marine.viewer.snapshot import Snapshot
+from dq_marine.weather import weather_of, weather_terms
 
 MOST_SUBSTEPS = 10_000
 """Integrator steps in a control period: more would hold the process for long, and never be needed."""
@@ -51,6 +58,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         vehicle: the validated vehicle.
         pool: the vehicles that episodes fly: that one, or those drawn from it.
         scene: what is integrated, with the largest current that may be drawn and the pool's first vehicle.
+        weather: what makes the scene's forces besides.
+        restless: whether it changes, so that episodes begin at a time that is drawn.
         task: the formulas of the task, for what drives the vehicle.
         drive: what an action does.
         control_period: time between actions [s].
@@ -70,6 +79,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         substeps: int,
         scheme: str,
         actuation: str,
+        weather: Sequence[Any],
         render_mode: str | None,
         record: bool,
         vehicle_draw: VehicleDraw = FIXED_VEHICLE,
@@ -84,7 +94,13 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.current_draw = CurrentDraw(vector3(self.current_ned), self.current_speed)
         largest = np.array([self.current_speed, 0.0, 0.0]) + self.current_ned
         step = self.control_period / self.substeps
-        scene_of = partial(Scene, current=largest, scheme=scheme, step=step, actuation=actuation)
+        self.weather = weather_of(weather)
+        self.restless = any(part.changes for part in self.weather)
+
+        def scene_of(one: Vehicle) -> Scene:
+            forces = weather_terms(self.weather, one, self.current_ned)
+            return Scene(one, current=largest, scheme=scheme, step=step, actuation=actuation, forces=forces)
+
         self.pool = prepared_pool(vehicle_draw.vehicles(self.vehicle), scene_of, self.vehicle_aim)
         self.scene = self.pool.scene
         self.drive = drive_of(self.scene)
@@ -156,6 +172,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         uniforms = self.np_random.random(CURRENT_DRAWS + self.task.draws)
         drawn = make_draw(self.task)(aim, self.current_draw, tuple(uniforms.tolist()))
         self._episode = self._new_episode(aim, as_chosen(drawn, chosen), number)
+        if self.restless:
+            self._episode.clock = CLOCK_SPAN * self.np_random.random()
         self._parameters = self._parameters_in(self._episode)
         self._view.begin(self)
         begun = {"vehicle": number} if self.pool.has_choice else {}
@@ -185,7 +203,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             command,
             episode.observation,
             episode.measures,
-            episode.periods * self.control_period,
+            episode.periods * self.control_period + episode.clock,
             self.substeps,
         )
         if status == ACTION_NOT_FINITE:

@@ -107,6 +107,7 @@ class StationKeepingEnv(MarineEnv):
         substeps: int = 4,
         scheme: str = "midpoint",
         actuation: str = "wrench",
+        weather: Sequence[Any] = (),
         reward: StationKeepingReward | Mapping[str, float] | None = None,
         goal_position: Sequence[float] | None = None,
         start_radius: float | None = None,
@@ -133,6 +134,8 @@ class StationKeepingEnv(MarineEnv):
             start_radius: episodes start within this distance of the goal [m], one in ten at the goal itself; a vessel
                 that floats starts level with it. None for 2 m, growing with the length of vehicles above 1.5 m.
             workspace_radius: episodes end beyond this distance from the goal [m]; None for 6 m, growing likewise.
+            weather: seas and winds, as objects or dictionaries: see `dq_marine.weather.weather_of`. Where they change,
+                each episode begins at another time of theirs, which is drawn.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.
             randomise: let each episode fly another vehicle, drawn as a randomisation says: "default", the name of
@@ -171,6 +174,7 @@ class StationKeepingEnv(MarineEnv):
             substeps=substeps,
             scheme=scheme,
             actuation=actuation,
+            weather=weather,
             render_mode=render_mode,
             record=record,
             vehicle_draw=draw,

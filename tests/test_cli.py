@@ -23,6 +23,7 @@ COMMANDS = [
     ["evaluate"],
     ["train"],
     ["report"],
+    ["sea"],
     ["vehicles"],
     ["vehicles", "check"],
     ["vehicles", "sheet"],

@@ -19,6 +19,8 @@ from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from dq_marine.engines.lane_type import Lanes, as_floats
+from dq_marine.engines.table_type import TableType
+from dq_marine.kernel.table import Table
 
 
 @dataclass(frozen=True)
@@ -66,13 +68,15 @@ def packing_of(structure: Any, lanes: Lanes, is_shared: Callable[[tuple[str | in
     slots: list[Slot] = []
 
     def visit(part: Any, path: tuple[str | int, ...], shared: bool) -> types.Type:
-        shared = shared or is_shared(path)
+        shared = shared or is_shared(path) or isinstance(part, Table)
         if not isinstance(part, tuple):
             slots.append(Slot(counts[shared], shared))
             counts[shared] += 1
             return types.float64 if shared else lanes
         names = getattr(part, "_fields", range(len(part)))
         kinds = tuple(visit(inner, (*path, name), shared) for name, inner in zip(names, part, strict=True))
+        if isinstance(part, Table):
+            return TableType(len(part))
         return types.BaseTuple.from_types(kinds, type(part) if hasattr(part, "_fields") else None)
 
     kind = visit(structure, (), False)
@@ -161,6 +165,10 @@ def make_load_block(packing: Packing) -> Callable[[Any, Any, Any], Any]:
                 if isinstance(part, types.BaseTuple):
                     return context.make_tuple(builder, part, [build(inner) for inner in part.types])
                 slot = next(slots)
+                if isinstance(part, TableType):
+                    for _ in range(part.count - 1):
+                        next(slots)
+                    return cgutils.gep_inbounds(builder, common, slot.index)
                 if slot.shared:
                     return builder.load(cgutils.gep_inbounds(builder, common, slot.index))
                 pointer = _pointer(context, builder, sig.args[1], values[1], values[2], packing, slot.index)
@@ -187,7 +195,10 @@ def make_store_block(packing: Packing) -> Callable[[Any, Any, Any], Any]:
                         write(inner, builder.extract_value(value, index))
                     return
                 slot = next(slots)
-                if not slot.shared:
+                if isinstance(part, TableType):
+                    for _ in range(part.count - 1):
+                        next(slots)
+                elif not slot.shared:
                     pointer = _pointer(
                         context, builder, sig.args[0], values[0], values[1], packing, slot.index
                     )

@@ -24,6 +24,7 @@ from dq_marine.engines.lane_vehicles import PoolLayout, make_renew_vehicle
 from dq_marine.engines.packing import make_load, structure_type
 from dq_marine.engines.pcg64 import next_uniform
 from dq_marine.kernel.beginning import (
+    CLOCK_SPAN,
     CURRENT_DRAWS,
     Beginning,
     CurrentDraw,
@@ -44,7 +45,7 @@ from dq_marine.kernel.vector3 import dot
 class PeriodLayout:
     """How environments lie in memory: the type of their own numbers, a packing for each structure, and a pool's layout.
 
-    There is no pool where episodes keep their vehicle.
+    There is no pool where episodes keep their vehicle. `restless` is whether episodes begin at a time of their own, which is drawn.
     """
 
     lanes: Lanes
@@ -54,6 +55,7 @@ class PeriodLayout:
     memory: Packing
     outcome: Packing
     pool: PoolLayout | None = None
+    restless: bool = False
 
     @property
     def key(self) -> str:
@@ -83,6 +85,7 @@ class PeriodArrays(NamedTuple):
         chosen: what is not drawn at a `begin`: position, quaternion, velocity (Fossen's order), current; NaN if drawn.
         drawn_currents: of the episodes begun last, shape (bodies, 3).
         periods: control periods since the episode began.
+        clocks: time at the episode's beginning [s].
         ended: whether the last period ended the episode.
         observations: shape (bodies, observed).
         final_observations: the same of episodes that ended in the last period.
@@ -108,6 +111,7 @@ class PeriodArrays(NamedTuple):
     chosen: Any
     drawn_currents: Any
     periods: Any
+    clocks: Any
     ended: Any
     observations: Any
     final_observations: Any
@@ -173,20 +177,49 @@ def make_saturated(size: int, first: int = 0) -> Callable[[Any], Any]:
     return saturated
 
 
+def draw_clock(generators: Any, clocks: Any, body: int) -> None:
+    """Set the time at an episode's beginning, from one more uniform number."""
+    clocks[body] = CLOCK_SPAN * next_uniform(generators[body])
+
+
+def draw_no_clock(generators: Any, clocks: Any, body: int) -> None:
+    """Leave the time at an episode's beginning at 0: the weather does not change."""
+
+
+def make_time(layout: PeriodLayout, load_numbers: Callable[..., Any]) -> Callable[..., float]:
+    """Return (clocks, block, time since the episodes' beginning) -> time [s]."""
+
+    def time_by_clock(clocks: Any, block: int, elapsed: float) -> float:
+        return elapsed + load_numbers(clocks, block)
+
+    def time_from_zero(clocks: Any, block: int, elapsed: float) -> float:
+        return elapsed
+
+    return time_by_clock if layout.restless else time_from_zero
+
+
 @functools.cache
-def make_begin_one(composition: Composition, task: Task) -> Callable[..., Any]:
-    """Return (generators, chosen, currents, body, parameters, aim) -> (Beginning, current), for one body."""
+def make_begin_one(composition: Composition, task: Task, restless: bool) -> Callable[..., Any]:
+    """Return (generators, clocks, chosen, currents, body, parameters, aim) -> (Beginning, current), for one body."""
     draw, begin = make_draw(task), make_beginning(composition, task)
     load_currents = make_load(structure_type(CurrentDraw((0.0, 0.0, 0.0), 0.0)))
+    set_clock = draw_clock if restless else draw_no_clock
     count = CURRENT_DRAWS + task.draws
     zeros = (0.0,) * count
 
     def begin_one(
-        generators: Any, chosen: Any, currents: Any, body: int, parameters: StepParameters, aim: Any
+        generators: Any,
+        clocks: Any,
+        chosen: Any,
+        currents: Any,
+        body: int,
+        parameters: StepParameters,
+        aim: Any,
     ) -> Any:
         uniforms = zeros
         for index in range(count):
             uniforms = tuple_setitem(uniforms, index, next_uniform(generators[body]))
+        set_clock(generators, clocks, body)
         drawn = as_chosen_in(chosen[body], draw(aim, load_currents(currents), uniforms))
         return begin(parameters, aim, drawn), drawn.current_ned
 
@@ -204,7 +237,7 @@ def compiled_begin(composition: Composition, task: Task, layout: PeriodLayout) -
     load_memory, load_flags = loads.memory, loads.flags
     store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
     store_aim, renew_vehicle = stores.aim, make_renew_vehicle(layout.pool, layout.lanes)
-    begin_one, motion_of = make_begin_one(composition, task), make_motion(composition)
+    begin_one, motion_of = make_begin_one(composition, task, layout.restless), make_motion(composition)
     observe, judge = task.observe, task.judge
 
     def begin_blocks(first: int, last: int, arrays: PeriodArrays, wanted: Any) -> None:
@@ -222,7 +255,15 @@ def compiled_begin(composition: Composition, task: Task, layout: PeriodLayout) -
                 going_on = Beginning(parameters.water, state, memory, observation, measures), current
                 bodies = lane_numbers(motion.position_ned[0], block)
                 parameters, aim = renew_vehicle(renewed, arrays, block, bodies, parameters, aim)
-                arguments = (arrays.generators, arrays.chosen, arrays.currents, bodies, parameters, aim)
+                arguments = (
+                    arrays.generators,
+                    arrays.clocks,
+                    arrays.chosen,
+                    arrays.currents,
+                    bodies,
+                    parameters,
+                    aim,
+                )
                 begun, current = select_call(renewed, begin_one, arguments, going_on)
                 store_state(arrays.states, block, begun.state)
                 store_memory(arrays.memories, block, begun.memory)
@@ -252,8 +293,9 @@ def compiled_period(
     store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
     store_aim, store_outcome = stores.aim, stores.outcome
     renew_vehicle = make_renew_vehicle(layout.pool, layout.lanes)
-    control_period, begin_one = make_control_period(composition, task), make_begin_one(composition, task)
-    motion_of = make_motion(composition)
+    control_period = make_control_period(composition, task)
+    begin_one, motion_of = make_begin_one(composition, task, layout.restless), make_motion(composition)
+    time_at = make_time(layout, load_numbers)
 
     def period_blocks(
         first: int,
@@ -271,7 +313,8 @@ def compiled_period(
             memory = load_memory(arrays.shared, arrays.memories, block)
             action = saturated(load_actions(actions, block))
             elapsed = load_numbers(arrays.periods, block)
-            outcome = control_period(parameters, aim, state, memory, action, elapsed * period, steps)
+            time = time_at(arrays.clocks, block, elapsed * period)
+            outcome = control_period(parameters, aim, state, memory, action, time, steps)
             step, verdict = outcome.step, outcome.verdict
 
             idle = load_flags(arrays.ended, block)
@@ -305,6 +348,7 @@ def compiled_period(
                 current = spread((0.0, 0.0, 0.0), verdict.reward)
                 arguments = (
                     arrays.generators,
+                    arrays.clocks,
                     arrays.chosen,
                     arrays.currents,
                     bodies,

@@ -212,6 +212,26 @@ def _by_precision(like: Any, double: Any, single: Any) -> Any:
     return lambda like, double, single: double
 
 
+@intrinsic
+def round_number(typing_context: Any, value: Any) -> Any:
+    """The whole number next to a number, or to that of each lane, by one instruction."""
+
+    def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
+        kind = values[0].type
+        width = f"v{kind.count}" if isinstance(kind, ir.VectorType) else ""
+        letter = "f64" if getattr(kind, "element", kind) == ir.DoubleType() else "f32"
+        function_type = ir.FunctionType(kind, [kind])
+        name = f"llvm.rint.{width}{letter}"
+        return builder.call(cgutils.get_or_insert_function(builder.module, function_type, name), [values[0]])
+
+    return signature(value, value), generate
+
+
+@provide(selection.rounded)
+def _rounded(value: Any) -> Any:
+    return lambda value: round_number(value)
+
+
 @provide(selection.select)
 def _select(condition: Any, chosen: Any, otherwise: Any) -> Any:
     if isinstance(condition, Lanes):

@@ -15,6 +15,7 @@ from dq_marine.engines.lane_packing import Packing, make_load_block, make_store_
 from dq_marine.engines.lane_rows import make_load_rows
 from dq_marine.engines.lane_type import Lanes
 from dq_marine.engines.one_body import AT_REST
+from dq_marine.engines.table_type import check_tables
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.spatial import from_fossen
 from dq_marine.kernel.step import Composition, StepParameters, make_advance
@@ -78,7 +79,12 @@ def lane_layout(parameters: StepParameters, differing: frozenset[str], lanes: La
 
 
 def differing_fields(structures: Sequence[Any]) -> frozenset[str]:
-    """Return the fields in which named tuples of one type, of (nested tuples of) numbers, differ."""
+    """Return the fields in which named tuples of one type, of (nested tuples of) numbers, differ.
+
+    Raises:
+        InvalidInputError: their tables do.
+    """
+    check_tables(structures)
     first = structures[0]
     others = [other for other in structures[1:] if other != first]
     return frozenset(

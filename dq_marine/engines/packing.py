@@ -16,6 +16,9 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
+from dq_marine.engines.table_type import TableType
+from dq_marine.kernel.table import Table
+
 
 def flatten(structure: Any) -> Iterator[float]:
     """Yield the numbers of nested tuples, depth first."""
@@ -46,13 +49,15 @@ def rebuild(like: Any, components: Iterator[Any]) -> Any:
     if not isinstance(like, tuple):
         return next(components)
     parts = [rebuild(part, components) for part in like]
-    return type(like)(*parts) if hasattr(like, "_fields") else tuple(parts)
+    return type(like)(*parts) if hasattr(like, "_fields") else type(like)(parts)
 
 
 def structure_type(structure: Any) -> types.Type:
     """Return the Numba type of nested tuples whose leaves are taken as float64."""
     if not isinstance(structure, tuple):
         return types.float64
+    if isinstance(structure, Table):
+        return TableType(len(structure))
     named = type(structure) if hasattr(structure, "_fields") else None
     return types.BaseTuple.from_types(tuple(structure_type(part) for part in structure), named)
 
@@ -68,6 +73,9 @@ def make_load(result: types.Type) -> Callable[[Any], Any]:
             position = iter(range(_leaf_count(result)))
 
             def build(part: types.Type) -> Any:
+                if isinstance(part, TableType):
+                    places = [next(position) for _ in range(part.count)]
+                    return cgutils.gep_inbounds(builder, data, places[0])
                 if not isinstance(part, types.BaseTuple):
                     pointer = cgutils.gep_inbounds(builder, data, next(position))
                     value = builder.load(pointer)
@@ -105,6 +113,8 @@ def store(typing_context: Any, array: Any, structure: Any) -> Any:
 
 
 def _leaf_count(part: types.Type) -> int:
+    if isinstance(part, TableType):
+        return part.count
     if not isinstance(part, types.BaseTuple):
         return 1
     return sum(_leaf_count(inner) for inner in part.types)

@@ -14,6 +14,9 @@ from dq_marine.kernel.vector3 import Vector3, add
 CURRENT_DRAWS = 2
 """Uniform random numbers that a current takes."""
 
+CLOCK_SPAN = 1e4
+"""Episodes in weather that changes begin at a time drawn from this many seconds: each meets another stretch of it."""
+
 
 class CurrentDraw(NamedTuple):
     """A fixed current in NED [m/s], and a horizontal one of any direction, with a speed [m/s] of up to `speed`."""

@@ -29,6 +29,11 @@ def smallest_normal(like: float) -> float:
     return by_precision(like, 2.3e-308, 1.2e-38)
 
 
+def rounded(value: float) -> float:
+    """Return the whole number next to a finite number, the even one of two."""
+    return float(round(value))
+
+
 def select(condition: bool, chosen: T, otherwise: T) -> T:
     """Return `chosen` where the condition holds, else `otherwise`: numbers, or (nested) tuples of them alike."""
     return chosen if condition else otherwise

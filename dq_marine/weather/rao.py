@@ -1,0 +1,134 @@
+"""Force transfer functions of a hull (force RAOs): what force each wave makes, by frequency and heading."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.errors import InvalidInputError
+from dq_marine.kernel.wave_transfer import WaveTransfer, transferred_waves
+from dq_marine.terms import ForceTerm
+from dq_marine.weather.sea import Sea, table
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+FOLLOWED = 0.01
+"""Part of each axis's force, root mean square over sea and headings, that a series in the heading may miss."""
+
+MOST_HARMONICS = 24
+LARGEST_GAP = math.radians(60.0)
+"""Between headings: what is farther apart cannot be told from its neighbours."""
+
+MIRRORED = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+"""What becomes of a wrench when port and starboard are exchanged, in Fossen's order."""
+
+
+@dataclass(frozen=True, eq=False)
+class ForceRAO:
+    """Force transfer functions, in the body frame about the body origin, per metre of wave amplitude.
+
+    A wave that raises the surface at the body origin by a cos(omega t) makes the force Re(a F e^{i omega t}): phases
+    are positive where the force leads the crest.
+
+    Attributes:
+        frequencies: rising, shape (n,) [rad/s].
+        headings: into which the waves go, relative to the vessel's: 0 a following sea, pi/2 from port, pi a head sea;
+            rising, less than a turn from first to last, shape (m,) [rad].
+        transfer: F in Fossen's order, complex, shape (n, m, 6) [N/m, N].
+    """
+
+    frequencies: Array
+    headings: Array
+    transfer: ComplexArray
+
+    def __post_init__(self) -> None:
+        """Refuse what is no set of transfer functions.
+
+        Raises:
+            InvalidInputError: with the reason.
+        """
+        n, m = np.size(self.frequencies), np.size(self.headings)
+        if np.shape(self.frequencies) != (n,) or np.shape(self.headings) != (m,) or not n or not m:
+            raise InvalidInputError("frequencies and headings must be lists of at least one number each")
+        if np.shape(self.transfer) != (n, m, 6):
+            raise InvalidInputError(f"transfer has shape {np.shape(self.transfer)}; give shape ({n}, {m}, 6)")
+        for name in ("frequencies", "headings", "transfer"):
+            if not np.isfinite(getattr(self, name)).all():
+                raise InvalidInputError(f"{name} has a NaN or an infinity; give finite numbers")
+        if self.frequencies[0] <= 0.0 or np.any(np.diff(self.frequencies) <= 0.0):
+            raise InvalidInputError("frequencies must be positive and rise")
+        if np.any(np.diff(self.headings) <= 0.0) or self.headings[-1] - self.headings[0] >= 2.0 * math.pi:
+            raise InvalidInputError(
+                "headings must rise, by less than a turn in all (0 and 2 pi are the same)"
+            )
+
+    def mirrored(self) -> ForceRAO:
+        """Return the same for all headings, from headings of 0 to pi and a hull alike on port and starboard."""
+        inner = (self.headings > 1e-9) & (self.headings < math.pi - 1e-9)
+        other = 2.0 * math.pi - self.headings[inner][::-1]
+        reflected = self.transfer[:, inner][:, ::-1] * MIRRORED
+        return ForceRAO(
+            self.frequencies,
+            np.concatenate([self.headings, other]),
+            np.concatenate([self.transfer, reflected], axis=1),
+        )
+
+    def at(self, frequencies: Array) -> ComplexArray:
+        """Return F at frequencies [rad/s], shape (len(frequencies), m, 6).
+
+        Linear between the given ones, in real and imaginary part; as at the lowest below it, zero above the highest.
+        """
+        own = np.clip(
+            np.searchsorted(self.frequencies, frequencies) - 1, 0, max(0, len(self.frequencies) - 2)
+        )
+        after = np.minimum(own + 1, len(self.frequencies) - 1)
+        gap = np.where(after > own, self.frequencies[after] - self.frequencies[own], 1.0)
+        part = np.clip((frequencies - self.frequencies[own]) / gap, 0.0, 1.0)[:, None, None]
+        between = (1.0 - part) * self.transfer[own] + part * self.transfer[after]
+        within = frequencies <= self.frequencies[-1] * (1.0 + 1e-12)
+        return np.asarray(between * within[:, None, None])
+
+    def series(self, frequencies: Array, amplitudes: Array) -> ComplexArray:
+        """Return the series in the heading that follows F, shape (len(frequencies), harmonics, 2, 6).
+
+        Its entries [j, n, 0] and [j, n, 1] go with cos(n beta) and sin(n beta). There are as many harmonics as are
+        needed to follow every axis's force to 1 % (root mean square over the sea and the headings), or as the headings
+        can tell apart.
+
+        Args:
+            frequencies: of the sea's components [rad/s].
+            amplitudes: of them, which say how much each counts [m].
+
+        Raises:
+            InvalidInputError: the headings leave a gap.
+        """
+        gaps = np.diff(np.append(self.headings, self.headings[0] + 2.0 * math.pi))
+        if gaps.max() > LARGEST_GAP + 1e-9:
+            raise InvalidInputError(
+                f"the headings leave a gap of {math.degrees(gaps.max()):.0f} degrees; give some every "
+                f"{math.degrees(LARGEST_GAP):.0f} degrees all around, for a symmetric hull by mirrored()"
+            )
+        values = self.at(frequencies)
+        weights = amplitudes[:, None, None]
+        size = np.sqrt(np.mean(np.abs(weights * values) ** 2, axis=(0, 1)))
+        most = min(MOST_HARMONICS, (len(self.headings) - 1) // 2)
+        for order in range(most + 1):
+            basis = np.stack(
+                [f(n * self.headings) for n in range(order + 1) for f in (np.cos, np.sin)], axis=1
+            )
+            fit = np.linalg.pinv(basis)
+            coefficients = np.einsum("cm,jmi->jci", fit, values)
+            missed = weights * (values - np.einsum("mc,jci->jmi", basis, coefficients))
+            if np.all(np.sqrt(np.mean(np.abs(missed) ** 2, axis=(0, 1))) <= FOLLOWED * size):
+                break
+        return np.asarray(coefficients.reshape(len(frequencies), order + 1, 2, 6))
+
+    def term(self, sea: Sea) -> ForceTerm:
+        """Return the first-order force of a sea."""
+        coefficients = self.series(sea.frequencies, sea.amplitudes) * sea.amplitudes[:, None, None, None]
+        parts = np.stack([coefficients.real, coefficients.imag], axis=3)
+        return ForceTerm("waves", transferred_waves, WaveTransfer(sea.field, table(parts)))
