@@ -76,7 +76,7 @@ def wide_randomisations(draw):
         buoyancy={"net_weight": {"uniform": (-0.1, 0.1)}, "center": {"uniform": (-0.02, 0.02)}},
         added_mass={"factor": factors(), "coupling": draw(coupling)},
         damping={"linear": factors(), "linear_coupling": draw(coupling), "quadratic": factors()},
-        limits={"wrench": factors()},
+        actuators={"wrench": factors(), "thrust": factors(), "fins": factors()},
     )
 
 
