@@ -67,7 +67,10 @@ def varied_buoyancy(
         center = (moment - arm) / buoyant_force
     else:
         center = np.array(vehicle.buoyancy.center) + _offsets(draw.center, rng)
-    return {"buoyancy": vehicle.buoyancy.model_dump() | {"volume": volume, "center": center.tolist()}}
+    return {
+        "buoyancy": vehicle.buoyancy.model_dump() | {"volume": volume, "center": center.tolist()},
+        "hull": _widened_hull(vehicle, volume / vehicle.buoyancy.volume),
+    }
 
 
 def varied_flotation(
@@ -86,12 +89,8 @@ def varied_flotation(
     else:
         scale = np.sqrt([1.0, righting, righting])
         hydrostatics["stiffness"] = (np.array(hydrostatics["stiffness"]) * np.outer(scale, scale)).tolist()
-    boxes = [box.model_dump() for box in vehicle.hull]
-    for box in boxes:
-        length, width, height = box["size"]
-        box["size"] = (length, growth * width, height)
     buoyancy = vehicle.buoyancy.model_dump() | {"volume": growth * vehicle.buoyancy.volume}
-    return {"buoyancy": buoyancy, "hydrostatics": hydrostatics, "hull": boxes}
+    return {"buoyancy": buoyancy, "hydrostatics": hydrostatics, "hull": _widened_hull(vehicle, growth)}
 
 
 def varied_added_mass(draw: AddedMassDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
@@ -153,6 +152,15 @@ def _scale(table: Content, names: tuple[str, ...], factor: float) -> None:
 
 def _root(factors: Array, row: int, column: int) -> float:
     return math.sqrt(factors[row] * factors[column])
+
+
+def _widened_hull(vehicle: Vehicle, growth: float) -> list[Content]:
+    """Return the boxes of a hull, as much wider as they are to displace more."""
+    boxes = [box.model_dump() for box in vehicle.hull]
+    for box in boxes:
+        length, width, height = box["size"]
+        box["size"] = (length, growth * width, height)
+    return boxes
 
 
 def _rest_rotation(draw: BuoyancyDraw, rng: np.random.Generator) -> Array:
