@@ -15,6 +15,7 @@ import typer
 from dq_marine import __version__
 from dq_marine.command_basics import HELP_OPTIONS, Commands, console, examples
 from dq_marine.errors import InvalidInputError
+from dq_marine.manoeuvre_commands import app as manoeuvre_app
 from dq_marine.vehicle_commands import app as vehicles_app
 
 app = typer.Typer(
@@ -27,6 +28,7 @@ app = typer.Typer(
     context_settings=HELP_OPTIONS,
 )
 app.add_typer(vehicles_app, name="vehicles")
+app.add_typer(manoeuvre_app, name="manoeuvre")
 
 
 class Algorithm(StrEnum):
