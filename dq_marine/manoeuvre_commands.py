@@ -117,7 +117,7 @@ def turning_circle(
 ) -> None:
     """Full helm from a steady approach: advance, transfer, tactical diameter, steady radius, drift, roll.
 
-    It turns by 540 degrees; the steady figures are those of the last half circle.
+    It turns by 540 degrees, or more until the turn is steady; the steady figures are those of the last half circle.
     """
 
     def run(vehicle: Vehicle, watch: Any) -> Result:

@@ -23,6 +23,8 @@ COMMANDS = [
     ["evaluate"],
     ["train"],
     ["report"],
+    ["manoeuvre"],
+    ["manoeuvre", "bluerov2", "zig-zag"],
     ["vehicles"],
     ["vehicles", "check"],
     ["vehicles", "sheet"],

@@ -42,5 +42,7 @@ def approached(craft: Craft, phase: str, watch: Watch = unwatched) -> Approach:
             f"{math.log(2.0) / growth_rate:.3g} s."
         )
     elif growth_rate == 0.0:
-        notes.append("Neutral on course: helm amidships, a small deviation from the straight course stays.")
+        notes.append(
+            "Neutral: helm amidships, a small deviation of sway, yaw rate or roll neither grows nor dies out."
+        )
     return Approach(run, run.speed, growth_rate, tuple(notes))

@@ -15,10 +15,10 @@ from dq_marine.manoeuvres.steering import Order
 Watch = Callable[[str, float], None]
 """Told now and then what is being run, and the simulated time [s]."""
 
-SETTLED = 1e-4
-"""Change of a mean from one ship length's time to the next, over its scale, below which it is steady."""
+SETTLED = 5e-4
+"""What a mean over the time of one length has still to change, over its scale, below which it is steady."""
 
-LONGEST_SETTLING = 300
+LONGEST_SETTLING = 600
 """Times of one length."""
 
 WATCH_EVERY = 100
@@ -48,6 +48,7 @@ class Run:
         craft: the craft.
         body: its state.
         heading: since the manoeuvre began, continuous [rad].
+        sample: the latest.
     """
 
     def __init__(self, craft: Craft, phase: str, speed: float, watch: Watch = unwatched) -> None:
@@ -55,7 +56,7 @@ class Run:
         self.body = craft.scene.stepper()
         self.body.reset((0.0, 0.0, craft.depth), velocity_body=(speed, 0.0, 0.0, 0.0, 0.0, 0.0))
         self.heading = 0.0
-        self._sample = sample_of(self.body)
+        self.sample = sample_of(self.body)
         self._keeper = keeper_of(craft.vehicle, craft.full_speed)
         self._recorder = Recorder()
         self._phase, self._watch, self._samples = phase, watch, 0
@@ -64,34 +65,34 @@ class Run:
     @property
     def time(self) -> float:
         """Since the manoeuvre began [s]."""
-        return self._sample.time - self._begin
+        return self.sample.time - self._begin
 
     @property
     def speed(self) -> float:
         """Ahead [m/s]."""
-        return float(self._sample.velocity_body[0])
+        return float(self.sample.velocity_body[0])
 
     @property
     def yaw_rate(self) -> float:
         """About the body's z axis [rad/s]."""
-        return float(self._sample.velocity_body[5])
+        return float(self.sample.velocity_body[5])
 
     def begin(self, lead: float) -> None:
         """Let the manoeuvre begin: time and heading count from here; `lead` of what came before is kept [s]."""
-        self._begin = self._sample.time
+        self._begin = self.sample.time
         self._recorder.begin(self._begin, lead)
         self.heading = 0.0
 
     def steer(self, throttle: float, helm: float) -> None:
         """Advance by one sample under throttle and helm."""
-        craft, before = self.craft, self._sample
+        craft, before = self.craft, self.sample
         _, pitch, heading = attitude_angles(before.quaternion_body_to_ned)
         depth_error = float(before.position_ned[2]) - craft.depth
         heave, moment = self._keeper.heave_and_pitch(depth_error, pitch, before.velocity_body)
         self._recorder.add(before, throttle, helm)
         craft.steering.advance(self.body, Order(throttle, helm, heave, moment), craft.sample_steps)
-        self._sample = sample_of(self.body)
-        turned = attitude_angles(self._sample.quaternion_body_to_ned)[2] - heading
+        self.sample = sample_of(self.body)
+        turned = attitude_angles(self.sample.quaternion_body_to_ned)[2] - heading
         self.heading += math.remainder(turned, 2.0 * math.pi)
         self._samples += 1
         if self._samples % WATCH_EVERY == 0:
@@ -108,20 +109,28 @@ class Run:
         scale: float,
         longest: int = LONGEST_SETTLING,
     ) -> Steady:
-        """Advance until the mean of a quantity over the time of one length no longer changes, over its scale."""
+        """Advance until the mean of a quantity over the time of one length is steady, as measured by its scale."""
         samples = max(1, round(self.craft.time_scale / self.craft.sample_period))
-        last = math.inf
+        mean, change = math.inf, math.inf
         for _ in range(longest):
             total = 0.0
             for _ in range(samples):
                 advance()
                 total += quantity()
+            last_mean, last_change = mean, change
             mean = total / samples
-            if abs(mean - last) <= SETTLED * scale:
+            change = abs(mean - last_mean)
+            if still_to_come(change, last_change) <= SETTLED * scale:
                 return Steady(mean, True)
-            last = mean
-        return Steady(last, False)
+        return Steady(mean, False)
 
     def series(self) -> Series:
         """Return what was recorded, up to now."""
-        return self._recorder.series(self._sample)
+        return self._recorder.series(self.sample)
+
+
+def still_to_come(change: float, last_change: float) -> float:
+    """Return how far a quantity is from where it goes, if its changes go on shrinking as they did."""
+    if change < last_change < math.inf:
+        return change * change / (last_change - change)
+    return 0.0 if change == 0.0 else math.inf

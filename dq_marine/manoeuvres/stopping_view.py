@@ -32,7 +32,9 @@ def draw(result: Stopping) -> Any:
     track = figure.add_subplot(grid[:, 0])
     draw_track(track, result, HULLS)
     if result.head_reach is not None and result.track_reach is not None:
-        side = -1.2 * result.width
+        side = -0.8 * result.width
+        for reach in (0.0, result.head_reach):
+            track.plot([0.0, side], [reach, reach], color=MARK_COLOUR, linewidth=0.7, linestyle=":")
         text = f"head reach {result.head_reach:.3g} m\ntrack reach {result.track_reach:.3g} m"
         measure(
             track,
@@ -53,9 +55,8 @@ def draw(result: Stopping) -> Any:
         speed.plot([result.stopping_time], [value], "o", color=MARK_COLOUR, markersize=5.5)
         speed.annotate(
             f"after {result.stopping_time:.3g} s",
-            (result.stopping_time, value),
-            xytext=(-6, 10),
-            textcoords="offset points",
+            (0.98, 0.9),
+            xycoords="axes fraction",
             ha="right",
             color=MARK_COLOUR,
         )

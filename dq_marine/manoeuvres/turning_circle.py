@@ -14,21 +14,23 @@ from dq_marine.manoeuvres.conditions import Conditions, fraction
 from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees, over
-from dq_marine.manoeuvres.run import Watch, unwatched
+from dq_marine.manoeuvres.run import Run, Watch, unwatched
 from dq_marine.manoeuvres.series import Series
 from dq_marine.manoeuvres.sides import Side, sign_of
 from dq_marine.vehicles import Vehicle
 
 Array = NDArray[np.float64]
 
-TURN = math.radians(540.0)
-"""Heading change at which the turn ends, the last half circle being taken for steady."""
+LEAST_HALF_CIRCLES = 3
+"""That are turned."""
 
-LONGEST = 200.0
+MOST_HALF_CIRCLES = 40
+
+LONGEST = 300.0
 """Times of one length that the turn may take."""
 
-STEADY_CHANGE = 0.01
-"""Of the yaw rate from the half circle before the last to the last, beyond which the turn is not called steady."""
+STEADY_CHANGE = 0.002
+"""Of time and width from one half circle to the next, below which the turn is steady."""
 
 
 @dataclass(frozen=True)
@@ -159,14 +161,13 @@ def turning_circle(
     craft = prepared(vehicle, conditions or Conditions())
     start = approached(craft, "turning circle", watch)
     run, throttle = start.run, craft.conditions.throttle
-    while sign * run.heading < TURN and run.time < LONGEST * craft.time_scale:
-        run.steer(throttle, sign * helm)
+    settled = _turn(run, throttle, sign * helm)
     series = run.series()
     turned = sign * series.heading_change
     ahead, aside = series.along_and_across().T * np.array([[1.0], [sign]])
     under_way = series.time >= 0.0
     times = [first_time_at(series.time, turned, math.radians(angle)) for angle in (90.0, 180.0, 360.0)]
-    steady, notes = steady_turn(series, sign)
+    steady = steady_turn(series, sign)
     return TurningCircle(
         vehicle=vehicle.name,
         length=craft.length,
@@ -174,7 +175,7 @@ def turning_circle(
         settings={"throttle": throttle, "helm": helm, "side": side},
         step=craft.scene.step,
         series=series,
-        notes=(*start.notes, *notes),
+        notes=(*start.notes, *_notes(steady, settled, series)),
         side=side,
         approach_speed=start.speed,
         advance=value_at(series.time, ahead, times[0]),
@@ -189,21 +190,44 @@ def turning_circle(
     )
 
 
-def steady_turn(series: Series, sign: float) -> tuple[SteadyTurn | None, tuple[str, ...]]:
-    """Return the turn over its last half circle, and what is to be said of it."""
+def _turn(run: Run, throttle: float, helm: float) -> bool:
+    """Turn until the turn is steady or has taken its time; return whether it is."""
+    marks = [(0.0, run.sample.position_ned)]
+    while len(marks) <= MOST_HALF_CIRCLES and run.time < LONGEST * run.craft.time_scale:
+        run.steer(throttle, helm)
+        if math.copysign(1.0, helm) * run.heading >= len(marks) * math.pi:
+            marks.append((run.time, run.sample.position_ned))
+            if len(marks) > LEAST_HALF_CIRCLES and _is_steady(marks[-3:]):
+                return True
+    return False
+
+
+def _is_steady(marks: list[tuple[float, Array]]) -> bool:
+    """Return whether two half circles, from mark to mark, are alike in time and in width."""
+    (_, start), (first, middle), (second, end) = marks
+    begin = marks[0][0]
+    pairs = (
+        (first - begin, second - first),
+        (float(np.linalg.norm(middle - start)), float(np.linalg.norm(end - middle))),
+    )
+    return all(abs(now - before) <= STEADY_CHANGE * now for before, now in pairs)
+
+
+def steady_turn(series: Series, sign: float) -> SteadyTurn | None:
+    """Return the turn over its last half circle; None if it is not all around."""
     turned = sign * series.heading_change
     end = float(turned[-1])
     if end < 2.0 * math.pi:
-        return None, (f"It turned by {math.degrees(end):.0f} deg only in {series.time[-1]:.4g} s.",)
+        return None
     time = series.time
-    before, begin = (_time_at(time, turned, end - half_circles * math.pi) for half_circles in (2.0, 1.0))
+    begin = _time_at(time, turned, end - math.pi)
     finish, last = float(time[-1]), time >= begin
     yaw_rate = math.pi / (finish - begin)
     speed = float(series.distance[-1] - np.interp(begin, time, series.distance)) / (finish - begin)
     radius = speed / yaw_rate
     track = series.along_and_across()[last] * np.array([1.0, sign])
     centre = (track + radius * _inward(track)).mean(axis=0)
-    steady = SteadyTurn(
+    return SteadyTurn(
         radius=radius,
         speed=speed,
         yaw_rate=yaw_rate,
@@ -211,11 +235,15 @@ def steady_turn(series: Series, sign: float) -> tuple[SteadyTurn | None, tuple[s
         roll=sign * float(series.euler[last, 0].mean()),
         centre=(float(centre[0]), float(centre[1])),
     )
-    if abs(yaw_rate * (begin - before) / math.pi - 1.0) > STEADY_CHANGE:
-        return steady, (
-            "The turn was not yet steady: its steady figures are means over the last half circle.",
-        )
-    return steady, ()
+
+
+def _notes(steady: SteadyTurn | None, settled: bool, series: Series) -> tuple[str, ...]:
+    if steady is None:
+        turned = math.degrees(abs(float(series.heading_change[-1])))
+        return (f"It turned by {turned:.0f} deg only in {series.time[-1]:.4g} s.",)
+    if not settled:
+        return ("The turn did not become steady: its steady figures are means over the last half circle.",)
+    return ()
 
 
 def _time_at(time: Array, turned: Array, angle: float) -> float:
