@@ -63,7 +63,14 @@ class Craft:
     @property
     def depth(self) -> float:
         """Where it runs: position of the body origin in NED [m]."""
-        return DEPTH * max(1.0, self.length)
+        return running_depth(self.vehicle)
+
+
+def running_depth(vehicle: Vehicle) -> float:
+    """Return the depth of the body origin [m]: at rest of a vessel that floats, well below the surface of others."""
+    if vehicle.hydrostatics is not None:
+        return vehicle.equilibrium_depth
+    return DEPTH * max(1.0, vehicle.dimensions.length)
 
 
 def prepared(vehicle: Vehicle, conditions: Conditions) -> Craft:

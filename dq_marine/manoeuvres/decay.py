@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from dq_marine.checks import finite_number, positive_integer
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.euler import quaternion_from_euler
-from dq_marine.manoeuvres.craft import ACCURATE_STEP, DEPTH, rounded_down
+from dq_marine.manoeuvres.craft import ACCURATE_STEP, rounded_down, running_depth
 from dq_marine.manoeuvres.decrement import Decrement, decrement_of
-from dq_marine.manoeuvres.linear_modes import LinearMode, linear_mode, stiffness_matrix
+from dq_marine.manoeuvres.linear_modes import LinearMode, linear_mode, rest_of, stiffness_matrix
 from dq_marine.manoeuvres.quantities import Quantity, Result
 from dq_marine.manoeuvres.recorder import Recorder, sample_of
 from dq_marine.manoeuvres.run import WATCH_EVERY, Watch, unwatched
@@ -140,12 +140,12 @@ def decay(
 
 
 def released(scene: Scene, axis: int, release: float, duration: float, watch: Watch) -> Series:
-    """Return what happens in a time [s] after the release from rest."""
-    depth = DEPTH * max(1.0, scene.vehicle.dimensions.length)
+    """Return what happens in a time [s] after the release, at rest, so far from where it would stay."""
     body, recorder = scene.stepper(), Recorder()
-    roll, pitch = (release if axis == turned else 0.0 for turned in (3, 4))
-    attitude = quaternion_from_euler(roll, pitch, 0.0)
-    body.reset((0.0, 0.0, depth + (release if axis == 2 else 0.0)), attitude)
+    start = rest_of(scene.vehicle)
+    start[axis - AXES["heave"]] += release
+    heave, roll, pitch = start.tolist()
+    body.reset((0.0, 0.0, running_depth(scene.vehicle) + heave), quaternion_from_euler(roll, pitch, 0.0))
     for sample in range(math.ceil(duration / scene.step)):
         recorder.add(sample_of(body), 0.0, 0.0)
         body.step()

@@ -32,8 +32,8 @@ class Decrement:
         ratios: damping ratio from each pair of them, shape (n - 2,).
         period: mean, damped [s].
         damping_ratio: mean.
-        linear_ratio: zeta, the line at no amplitude; the mean where only one pair is there.
-        quadratic: b, from its slope [1 over the unit of the displacement].
+        linear_ratio: zeta, the line at no amplitude; the mean of less than three.
+        quadratic: b, from its slope, 0 of less than three [1 over the unit of the displacement].
     """
 
     peak_times: Array
@@ -79,12 +79,12 @@ def decrement_of(time: Array, displacement: Array, smallest: float) -> Decrement
 
 
 def fitted_line(amplitudes: Array, ratios: Array) -> tuple[float, float]:
-    """Return intercept and slope of the line through the damping ratios; a level one through a single ratio.
+    """Return intercept and slope of the line through the damping ratios; a level one through less than three.
 
     Deviations count by their share of the ratio: the line is exact for small damping, and many swings are small.
     """
-    if len(ratios) == 1:
-        return float(ratios[0]), 0.0
+    if len(ratios) < 3:
+        return float(ratios.mean()), 0.0
     sizes = np.abs(ratios)
     floor = SMALLEST_SHARE * float(sizes.max())
     weights = 1.0 / np.maximum(sizes, floor) if floor > 0.0 else None

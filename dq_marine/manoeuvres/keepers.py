@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,64 +23,117 @@ LARGEST_PITCH = math.radians(15.0)
 
 
 @dataclass(frozen=True)
-class Keeper:
-    """Critically damped control of heading, depth and pitch, with gains from the vehicle's inertia.
+class Helmsman:
+    """Critically damped control of heading.
 
     Attributes:
-        frequency: of heading and pitch control [rad/s]: quicker than the vehicle turns away by itself.
-        depth_frequency: of depth control by a heave force [rad/s].
-        length: of the vehicle [m].
-        mass: M33 [kg].
-        pitch_inertia: M55 [kg m^2].
-        yaw_inertia: M66 [kg m^2].
-        yaw_limit: moment of full helm [N m].
-        net_weight: W - B [N].
-        heaves: whether the vehicle has a heave force; it holds its depth by pitching otherwise.
+        frequency: [rad/s].
+        inertia: M66 [kg m^2].
+        full_moment: of full helm [N m].
     """
 
     frequency: float
-    depth_frequency: float
-    length: float
-    mass: float
-    pitch_inertia: float
-    yaw_inertia: float
-    yaw_limit: float
-    net_weight: float
-    heaves: bool
+    inertia: float
+    full_moment: float
 
     def helm(self, heading_error: float, yaw_rate: float) -> float:
         """Return the helm against a heading error [rad] and a yaw rate [rad/s]."""
-        moment = self.yaw_inertia * self._against(heading_error, yaw_rate)
-        return min(max(moment / self.yaw_limit, -1.0), 1.0)
+        moment = self.inertia * turning_back(self.frequency, heading_error, yaw_rate)
+        return min(max(moment / self.full_moment, -1.0), 1.0)
+
+
+class Planesman(Protocol):
+    """Holds a depth."""
 
     def heave_and_pitch(
         self, depth_error: float, pitch: float, velocity_body: NDArray[np.float64]
     ) -> tuple[float, float]:
         """Return heave force [N] and pitch moment [N m] against a depth error [m], positive when too deep."""
+
+
+class Afloat:
+    """Holds nothing: a vessel that floats does so by itself."""
+
+    def heave_and_pitch(
+        self, depth_error: float, pitch: float, velocity_body: NDArray[np.float64]
+    ) -> tuple[float, float]:
+        """Return no force and no moment."""
+        return 0.0, 0.0
+
+
+@dataclass(frozen=True)
+class LevelPlanesman:
+    """Holds the depth by a heave force, and the vehicle level: critically damped.
+
+    Attributes:
+        frequency: of pitch control [rad/s].
+        pitch_inertia: M55 [kg m^2].
+        depth_frequency: of depth control [rad/s].
+        mass: M33 [kg].
+        net_weight: W - B, loads included [N].
+    """
+
+    frequency: float
+    pitch_inertia: float
+    depth_frequency: float
+    mass: float
+    net_weight: float
+
+    def heave_and_pitch(
+        self, depth_error: float, pitch: float, velocity_body: NDArray[np.float64]
+    ) -> tuple[float, float]:
+        """Return heave force [N] and pitch moment [N m]."""
         _, _, heave, _, pitch_rate, _ = velocity_body
-        wanted, force = 0.0, 0.0
-        if self.heaves:
-            rate = self.depth_frequency
-            force = -self.mass * (rate * rate * depth_error + 2.0 * rate * heave) - self.net_weight
-        else:
-            wanted = min(max(DEPTH_SLOPE * depth_error / self.length, -LARGEST_PITCH), LARGEST_PITCH)
-        return force, self.pitch_inertia * self._against(pitch - wanted, pitch_rate)
-
-    def _against(self, error: float, rate: float) -> float:
-        return -self.frequency * (self.frequency * error + 2.0 * rate)
+        force = self.mass * turning_back(self.depth_frequency, depth_error, float(heave)) - self.net_weight
+        return force, self.pitch_inertia * turning_back(self.frequency, pitch, float(pitch_rate))
 
 
-def keeper_of(vehicle: Vehicle, speed: float) -> Keeper:
-    """Return the keeper that suits a vehicle at a speed [m/s]."""
-    length, inertia, limits = vehicle.dimensions.length, np.diag(vehicle.mass_matrix), vehicle.wrench_limits
-    return Keeper(
-        frequency=max(QUICKNESS * speed / length, 2.0 * munk_growth_rate(vehicle, speed)),
-        depth_frequency=speed / length,
-        length=length,
-        mass=float(inertia[2]),
-        pitch_inertia=float(inertia[4]),
-        yaw_inertia=float(inertia[5]),
-        yaw_limit=float(limits[5]),
-        net_weight=vehicle.weight - vehicle.buoyant_force,
-        heaves=bool(limits[2] > 0.0),
-    )
+@dataclass(frozen=True)
+class PitchingPlanesman:
+    """Holds the depth by pitching: of vehicles that have no heave force.
+
+    Attributes:
+        frequency: of pitch control [rad/s].
+        pitch_inertia: M55 [kg m^2].
+        length: of the vehicle [m].
+    """
+
+    frequency: float
+    pitch_inertia: float
+    length: float
+
+    def heave_and_pitch(
+        self, depth_error: float, pitch: float, velocity_body: NDArray[np.float64]
+    ) -> tuple[float, float]:
+        """Return no force, and the pitch moment [N m]."""
+        wanted = min(max(DEPTH_SLOPE * depth_error / self.length, -LARGEST_PITCH), LARGEST_PITCH)
+        _, _, _, _, pitch_rate, _ = velocity_body
+        return 0.0, self.pitch_inertia * turning_back(self.frequency, pitch - wanted, float(pitch_rate))
+
+
+def turning_back(frequency: float, error: float, rate: float) -> float:
+    """Return the acceleration of a critically damped return, -omega^2 e - 2 omega e'."""
+    return -frequency * (frequency * error + 2.0 * rate)
+
+
+def control_frequency(vehicle: Vehicle, speed: float) -> float:
+    """Return the frequency of heading and pitch control [rad/s]: quicker than the vehicle turns away by itself."""
+    return max(QUICKNESS * speed / vehicle.dimensions.length, 2.0 * munk_growth_rate(vehicle, speed))
+
+
+def helmsman_of(vehicle: Vehicle, speed: float) -> Helmsman:
+    """Return the helmsman of a vehicle at a speed [m/s]."""
+    inertia, moment = vehicle.mass_matrix[5, 5], vehicle.wrench_limits[5]
+    return Helmsman(control_frequency(vehicle, speed), float(inertia), float(moment))
+
+
+def planesman_of(vehicle: Vehicle, speed: float) -> Planesman:
+    """Return the planesman of a vehicle at a speed [m/s]."""
+    if vehicle.hydrostatics is not None:
+        return Afloat()
+    frequency, inertia = control_frequency(vehicle, speed), np.diag(vehicle.mass_matrix)
+    length, pitch_inertia = vehicle.dimensions.length, float(inertia[4])
+    if vehicle.wrench_limits[2] == 0.0:
+        return PitchingPlanesman(frequency, pitch_inertia, length)
+    net_weight = vehicle.weight + vehicle.load_weight - vehicle.buoyant_force
+    return LevelPlanesman(frequency, pitch_inertia, speed / length, float(inertia[2]), net_weight)

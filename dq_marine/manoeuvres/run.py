@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from dq_marine.manoeuvres.craft import Craft
-from dq_marine.manoeuvres.keepers import keeper_of
+from dq_marine.manoeuvres.keepers import helmsman_of, planesman_of
 from dq_marine.manoeuvres.recorder import Recorder, sample_of
 from dq_marine.manoeuvres.series import Series, attitude_angles
 from dq_marine.manoeuvres.steering import Order
@@ -57,7 +57,8 @@ class Run:
         self.body.reset((0.0, 0.0, craft.depth), velocity_body=(speed, 0.0, 0.0, 0.0, 0.0, 0.0))
         self.heading = 0.0
         self.sample = sample_of(self.body)
-        self._keeper = keeper_of(craft.vehicle, craft.full_speed)
+        self._helmsman = helmsman_of(craft.vehicle, craft.full_speed)
+        self._planesman = planesman_of(craft.vehicle, craft.full_speed)
         self._recorder = Recorder()
         self._phase, self._watch, self._samples = phase, watch, 0
         self._begin = 0.0
@@ -88,7 +89,7 @@ class Run:
         craft, before = self.craft, self.sample
         _, pitch, heading = attitude_angles(before.quaternion_body_to_ned)
         depth_error = float(before.position_ned[2]) - craft.depth
-        heave, moment = self._keeper.heave_and_pitch(depth_error, pitch, before.velocity_body)
+        heave, moment = self._planesman.heave_and_pitch(depth_error, pitch, before.velocity_body)
         self._recorder.add(before, throttle, helm)
         craft.steering.advance(self.body, Order(throttle, helm, heave, moment), craft.sample_steps)
         self.sample = sample_of(self.body)
@@ -100,7 +101,7 @@ class Run:
 
     def keep_heading(self, throttle: float) -> None:
         """Advance by one sample, the helm holding the heading at 0."""
-        self.steer(throttle, self._keeper.helm(self.heading, self.yaw_rate))
+        self.steer(throttle, self._helmsman.helm(self.heading, self.yaw_rate))
 
     def settle(
         self,
