@@ -19,6 +19,9 @@ from dq_marine.vehicles import Vehicle
 
 Array = NDArray[np.float64]
 
+SMALLEST_LOOP = 0.01
+"""Width [helm] below which a loop is no more than what the steady yaw rates are known to."""
+
 LONGEST_SETTLING = 60
 """Times of one length that each helm is given."""
 
@@ -170,6 +173,6 @@ def _notes(points: tuple[SpiralPoint, ...], width: float | None) -> tuple[str, .
         notes.append(f"At {restless} of {len(points)} helms the yaw rate did not become steady.")
     if width is None:
         notes.append("Full helm against the turn did not reverse it: the loop is wider than the helm.")
-    elif width > 0.0:
+    elif width > SMALLEST_LOOP:
         notes.append("Two yaw rates stand at one helm, within the loop: it does not hold a straight course.")
     return tuple(notes)

@@ -16,7 +16,7 @@ from dq_marine.manoeuvres.canvas import (
     new_figure,
     over_time,
 )
-from dq_marine.manoeuvres.spiral import Spiral, SpiralPoint
+from dq_marine.manoeuvres.spiral import SMALLEST_LOOP, Spiral, SpiralPoint
 
 
 def draw(result: Spiral) -> Any:
@@ -58,6 +58,6 @@ def _draw_branch(
 def _verdict(result: Spiral) -> str:
     if result.loop_width is None:
         return "the loop is wider than the helm: unstable on course"
-    if result.loop_width == 0.0:
+    if result.loop_width <= SMALLEST_LOOP:
         return "no loop: stable on course"
     return f"loop of {100.0 * result.loop_width:.3g} % of full helm: unstable on course"

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 LEAST_HALF_CIRCLES = 3
 """That are turned."""
 
-MOST_HALF_CIRCLES = 40
+MOST_HALF_CIRCLES = 16
 
 LONGEST = 300.0
 """Times of one length that the turn may take."""

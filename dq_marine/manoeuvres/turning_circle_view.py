@@ -11,6 +11,7 @@ from dq_marine.manoeuvres.canvas import (
     GUIDE_COLOUR,
     HEADING_COLOUR,
     HELM_COLOUR,
+    LEGEND,
     MARK_COLOUR,
     SPEED_COLOUR,
     draw_helm,
@@ -131,4 +132,4 @@ def _draw_rates(panels: list[Any], result: TurningCircle) -> None:
     )
     over_time(angles, "angle [deg]")
     angles.set_xlabel("time since helm [s]")
-    angles.legend(loc="best")
+    angles.legend(loc="lower right", **LEGEND)
