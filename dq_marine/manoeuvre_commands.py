@@ -43,6 +43,22 @@ class OrderName(StrEnum):
     OFF = "off"
 
 
+class ActuationName(StrEnum):
+    """What `--actuation` takes."""
+
+    WRENCH = "wrench"
+    THRUSTERS = "thrusters"
+
+
+ActuationOption = Annotated[
+    ActuationName | None,
+    typer.Option(
+        "--actuation",
+        help="Who carries out throttle and helm: a force and a moment within the vehicle's limits, or its thrusters "
+        "and fins.",
+        show_default="thrusters, if its file has them",
+    ),
+]
 ThrottleOption = Annotated[float, typer.Option("--throttle", help="Of the approach, above 0 to 1.")]
 StepOption = Annotated[
     float | None,
@@ -109,6 +125,7 @@ def turning_circle(
     helm: Annotated[float, typer.Option("--helm", help="Fraction of full helm, above 0 to 1.")] = 1.0,
     side: SideOption = SideName.STARBOARD,
     throttle: ThrottleOption = 1.0,
+    actuation: ActuationOption = None,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -124,7 +141,7 @@ def turning_circle(
         from dq_marine.manoeuvres import Conditions
         from dq_marine.manoeuvres import turning_circle as turn
 
-        conditions = Conditions(throttle=throttle, step=step)
+        conditions = Conditions(throttle=throttle, step=step, actuation=actuation)
         return turn(vehicle, helm=helm, side=side.value, conditions=conditions, watch=watch)
 
     _run_and_show(ctx, "turning-circle", run, Outputs(plot, no_plot, csv, json))
@@ -138,11 +155,16 @@ def zig_zag(
     ] = 10.0,
     helm: Annotated[
         float | None,
-        typer.Option("--helm", help="Fraction of full helm.", show_default="angle over 35 degrees"),
+        typer.Option(
+            "--helm",
+            help="Fraction of full helm.",
+            show_default="as much rudder as the angle; 35 deg are full helm of vehicles without",
+        ),
     ] = None,
     side: SideOption = SideName.STARBOARD,
     overshoots: Annotated[int, typer.Option("--overshoots", min=1, help="To wait for.")] = 4,
     throttle: ThrottleOption = 1.0,
+    actuation: ActuationOption = None,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -158,7 +180,7 @@ def zig_zag(
         from dq_marine.manoeuvres import Conditions
         from dq_marine.manoeuvres import zig_zag as zig
 
-        conditions = Conditions(throttle=throttle, step=step)
+        conditions = Conditions(throttle=throttle, step=step, actuation=actuation)
         return zig(
             vehicle,
             angle=math.radians(angle),
@@ -178,6 +200,7 @@ def spiral(
     helm: Annotated[float, typer.Option("--helm", help="Largest, as a fraction of full helm.")] = 1.0,
     helms: Annotated[int, typer.Option("--helms", min=1, help="To each side, besides 0.")] = 6,
     throttle: ThrottleOption = 1.0,
+    actuation: ActuationOption = None,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -190,7 +213,7 @@ def spiral(
         from dq_marine.manoeuvres import Conditions
         from dq_marine.manoeuvres import spiral as turn_slowly
 
-        conditions = Conditions(throttle=throttle, step=step)
+        conditions = Conditions(throttle=throttle, step=step, actuation=actuation)
         return turn_slowly(vehicle, helm=helm, helms=helms, conditions=conditions, watch=watch)
 
     _run_and_show(ctx, "spiral", run, Outputs(plot, no_plot, csv, json))
@@ -200,6 +223,7 @@ def spiral(
 def acceleration(
     ctx: typer.Context,
     throttle: Annotated[float, typer.Option("--throttle", help="Above 0 to 1.")] = 1.0,
+    actuation: ActuationOption = None,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -212,7 +236,9 @@ def acceleration(
         from dq_marine.manoeuvres import Conditions
         from dq_marine.manoeuvres import acceleration as accelerate
 
-        return accelerate(vehicle, conditions=Conditions(throttle=throttle, step=step), watch=watch)
+        return accelerate(
+            vehicle, conditions=Conditions(throttle=throttle, step=step, actuation=actuation), watch=watch
+        )
 
     _run_and_show(ctx, "acceleration", run, Outputs(plot, no_plot, csv, json))
 
@@ -224,6 +250,7 @@ def stopping(
         OrderName, typer.Option("--order", help="Full astern, or no thrust: then down to 5 % of the speed.")
     ] = OrderName.ASTERN,
     throttle: ThrottleOption = 1.0,
+    actuation: ActuationOption = None,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -236,7 +263,7 @@ def stopping(
         from dq_marine.manoeuvres import Conditions
         from dq_marine.manoeuvres import stopping as stop
 
-        conditions = Conditions(throttle=throttle, step=step)
+        conditions = Conditions(throttle=throttle, step=step, actuation=actuation)
         return stop(vehicle, order=order.value, conditions=conditions, watch=watch)
 
     _run_and_show(ctx, "stopping", run, Outputs(plot, no_plot, csv, json))

@@ -73,7 +73,7 @@ def acceleration(
         vehicle=vehicle.name,
         length=craft.length,
         width=vehicle.dimensions.width,
-        settings={"throttle": throttle},
+        settings=craft.settings,
         step=craft.scene.step,
         series=series,
         notes=() if steady.settled else ("The speed was still changing at the end.",),

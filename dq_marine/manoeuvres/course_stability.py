@@ -60,7 +60,7 @@ def _carried(run: Run, axis: int, size: float, samples: int) -> Array:
         tuple(run.body.quaternion_body_to_ned.tolist()), (math.cos(half_roll), math.sin(half_roll), 0.0, 0.0)
     )
     velocity = run.body.velocity_body + np.array([0.0, *deviation[:1], 0.0, deviation[1], 0.0, deviation[2]])
-    probe.body.reset(run.body.position_ned, attitude, velocity)
+    probe.displace(run, attitude, velocity)
     for _ in range(samples):
         probe.steer(craft.conditions.throttle, 0.0)
     _, sway, _, roll_rate, _, yaw_rate = probe.body.velocity_body

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.manoeuvres.actuator_steering import ActuatorSteering
 from dq_marine.manoeuvres.conditions import Conditions
 from dq_marine.manoeuvres.steering import Steering, WrenchSteering
 from dq_marine.scene import Scene
@@ -46,6 +47,11 @@ class Craft:
         return self.scene.vehicle
 
     @property
+    def settings(self) -> dict[str, float | str]:
+        """What a result says of its conditions."""
+        return {"throttle": self.conditions.throttle, "actuation": self.scene.actuation}
+
+    @property
     def length(self) -> float:
         """Overall length [m]."""
         return self.vehicle.dimensions.length
@@ -79,10 +85,12 @@ def prepared(vehicle: Vehicle, conditions: Conditions) -> Craft:
     Raises:
         InvalidInputError: it cannot be driven ahead or turned, nothing damps it in surge, or the step is too large.
     """
-    steering = WrenchSteering(vehicle)
     speed = full_speed(vehicle)
+    actuation = conditions.actuation or ("thrusters" if vehicle.channels else "wrench")
     step, samples = sampling(vehicle, speed, conditions.step)
-    return Craft(Scene(vehicle, step=step), conditions, steering, speed, samples)
+    scene = Scene(vehicle, step=step, actuation=actuation)
+    steering = WrenchSteering(vehicle) if actuation == "wrench" else ActuatorSteering(vehicle, speed)
+    return Craft(scene, conditions, steering, speed, samples)
 
 
 def full_speed(vehicle: Vehicle) -> float:

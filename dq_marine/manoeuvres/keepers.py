@@ -121,10 +121,9 @@ def control_frequency(vehicle: Vehicle, speed: float) -> float:
     return max(QUICKNESS * speed / vehicle.dimensions.length, 2.0 * munk_growth_rate(vehicle, speed))
 
 
-def helmsman_of(vehicle: Vehicle, speed: float) -> Helmsman:
-    """Return the helmsman of a vehicle at a speed [m/s]."""
-    inertia, moment = vehicle.mass_matrix[5, 5], vehicle.wrench_limits[5]
-    return Helmsman(control_frequency(vehicle, speed), float(inertia), float(moment))
+def helmsman_of(vehicle: Vehicle, speed: float, full_moment: float) -> Helmsman:
+    """Return the helmsman of a vehicle at a speed [m/s], whose full helm makes a moment [N m]."""
+    return Helmsman(control_frequency(vehicle, speed), float(vehicle.mass_matrix[5, 5]), full_moment)
 
 
 def planesman_of(vehicle: Vehicle, speed: float) -> Planesman:

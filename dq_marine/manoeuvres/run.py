@@ -6,6 +6,10 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.kernel.quaternion import Quaternion
 from dq_marine.manoeuvres.craft import Craft
 from dq_marine.manoeuvres.keepers import helmsman_of, planesman_of
 from dq_marine.manoeuvres.recorder import Recorder, sample_of
@@ -20,6 +24,9 @@ SETTLED = 5e-4
 
 LONGEST_SETTLING = 600
 """Times of one length."""
+
+BODY = slice(1, 15)
+"""Pose and momentum in a body's state; actuators stand behind."""
 
 WATCH_EVERY = 100
 """Samples."""
@@ -57,7 +64,8 @@ class Run:
         self.body.reset((0.0, 0.0, craft.depth), velocity_body=(speed, 0.0, 0.0, 0.0, 0.0, 0.0))
         self.heading = 0.0
         self.sample = sample_of(self.body)
-        self._helmsman = helmsman_of(craft.vehicle, craft.full_speed)
+        moment = craft.steering.full_moment(craft.full_speed)
+        self._helmsman = helmsman_of(craft.vehicle, craft.full_speed, moment)
         self._planesman = planesman_of(craft.vehicle, craft.full_speed)
         self._recorder = Recorder()
         self._phase, self._watch, self._samples = phase, watch, 0
@@ -78,6 +86,16 @@ class Run:
         """About the body's z axis [rad/s]."""
         return float(self.sample.velocity_body[5])
 
+    def displace(
+        self, other: Run, quaternion_body_to_ned: Quaternion, velocity_body: NDArray[np.float64]
+    ) -> None:
+        """Take over the place and the actuators of another run of the craft, at another attitude and velocity."""
+        self.body.reset(other.body.position_ned, quaternion_body_to_ned, velocity_body)
+        state = other.body.get_state()
+        state[BODY] = self.body.get_state()[BODY]
+        self.body.set_state(state)
+        self.sample = sample_of(self.body)
+
     def begin(self, lead: float) -> None:
         """Let the manoeuvre begin: time and heading count from here; `lead` of what came before is kept [s]."""
         self._begin = self.sample.time
@@ -91,7 +109,8 @@ class Run:
         depth_error = float(before.position_ned[2]) - craft.depth
         heave, moment = self._planesman.heave_and_pitch(depth_error, pitch, before.velocity_body)
         self._recorder.add(before, throttle, helm)
-        craft.steering.advance(self.body, Order(throttle, helm, heave, moment), craft.sample_steps)
+        order = Order(throttle, helm, heave, moment)
+        craft.steering.advance(self.body, order, float(before.velocity_body[0]), craft.sample_steps)
         self.sample = sample_of(self.body)
         turned = attitude_angles(self.sample.quaternion_body_to_ned)[2] - heading
         self.heading += math.remainder(turned, 2.0 * math.pi)

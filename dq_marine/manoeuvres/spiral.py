@@ -115,7 +115,7 @@ def spiral(
         vehicle=vehicle.name,
         length=craft.length,
         width=vehicle.dimensions.width,
-        settings={"throttle": craft.conditions.throttle, "helm": helm, "helms": helms},
+        settings=craft.settings | {"helm": helm, "helms": helms},
         step=craft.scene.step,
         series=start.run.series(),
         notes=(*start.notes, *_notes(points, width)),

@@ -1,7 +1,8 @@
-"""How a vehicle is steered: from throttle and helm to what acts on it."""
+"""How a vehicle is steered: what carries out throttle, helm, and the orders of who holds the depth."""
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -10,6 +11,13 @@ from dq_marine.engines.one_body import OneBody
 from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import Vehicle
 
+SURGE, HEAVE, PITCH, YAW = 0, 2, 4, 5
+"""Axes that orders are about, in Fossen's order."""
+
+
+RUDDER = math.radians(35.0)
+"""Deflection that full helm is taken for where no rudder says what it is [rad]: a ship's."""
+
 
 class Order(NamedTuple):
     """What is asked for at one time.
@@ -17,8 +25,8 @@ class Order(NamedTuple):
     Attributes:
         throttle: of the thrust along x, -1 (full astern) to 1.
         helm: of what turns the vehicle, -1 (full to port) to 1 (full to starboard).
-        heave_force: Z that the depth keeper asks for [N].
-        pitch_moment: M that it asks for [N m].
+        heave_force: Z that is asked for [N].
+        pitch_moment: M that is asked for [N m].
     """
 
     throttle: float
@@ -30,8 +38,15 @@ class Order(NamedTuple):
 class Steering(Protocol):
     """Carries out orders."""
 
-    def advance(self, body: OneBody, order: Order, steps: int) -> None:
-        """Advance the body by `steps` steps under an order."""
+    @property
+    def full_angle(self) -> float:
+        """Deflection of full helm [rad]."""
+
+    def full_moment(self, speed: float) -> float:
+        """Return the yaw moment of full helm at a speed ahead [m/s], in N m."""
+
+    def advance(self, body: OneBody, order: Order, surge_speed: float, steps: int) -> None:
+        """Advance the body, that has a speed ahead [m/s], by `steps` steps under an order."""
 
 
 class WrenchSteering:
@@ -44,24 +59,25 @@ class WrenchSteering:
             InvalidInputError: the vehicle cannot be driven ahead or turned.
         """
         self._limits = vehicle.wrench_limits
-        for axis, name, purpose in ((0, "surge", "drive it ahead"), (5, "yaw", "turn it")):
+        for axis, name, purpose in ((SURGE, "surge", "drive it ahead"), (YAW, "yaw", "turn it")):
             if self._limits[axis] == 0.0:
                 raise InvalidInputError(
                     f"limits.wrench[{axis}] = 0: {vehicle.name!r} has nothing in {name} to {purpose}; give it a limit "
                     "above 0, or a vehicle that has one"
                 )
 
-    def advance(self, body: OneBody, order: Order, steps: int) -> None:
-        """Advance the body by `steps` steps under an order."""
-        surge, _, heave, _, pitch, yaw = self._limits
-        wrench = np.array(
-            [
-                surge * order.throttle,
-                0.0,
-                min(max(order.heave_force, -heave), heave),
-                0.0,
-                min(max(order.pitch_moment, -pitch), pitch),
-                yaw * order.helm,
-            ]
-        )
-        body.step(wrench, steps)
+    @property
+    def full_angle(self) -> float:
+        """Deflection that full helm stands for [rad]."""
+        return RUDDER
+
+    def full_moment(self, speed: float) -> float:
+        """Return the limit in yaw [N m]."""
+        return float(self._limits[YAW])
+
+    def advance(self, body: OneBody, order: Order, surge_speed: float, steps: int) -> None:
+        """Advance the body under an order, within the limits."""
+        wrench = np.zeros(6)
+        wrench[SURGE], wrench[YAW] = self._limits[SURGE] * order.throttle, self._limits[YAW] * order.helm
+        wrench[HEAVE], wrench[PITCH] = order.heave_force, order.pitch_moment
+        body.step(np.clip(wrench, -self._limits, self._limits), steps)

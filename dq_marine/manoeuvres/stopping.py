@@ -103,7 +103,7 @@ def stopping(
         vehicle=vehicle.name,
         length=craft.length,
         width=vehicle.dimensions.width,
-        settings={"throttle": craft.conditions.throttle, "order": order},
+        settings=craft.settings | {"order": order},
         step=craft.scene.step,
         series=series,
         notes=(*start.notes, *_notes(stopped, float(np.abs(series.heading_change).max()), float(time[-1]))),

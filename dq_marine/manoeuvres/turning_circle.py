@@ -172,7 +172,7 @@ def turning_circle(
         vehicle=vehicle.name,
         length=craft.length,
         width=vehicle.dimensions.width,
-        settings={"throttle": throttle, "helm": helm, "side": side},
+        settings=craft.settings | {"helm": helm, "side": side},
         step=craft.scene.step,
         series=series,
         notes=(*start.notes, *_notes(steady, settled, series)),

@@ -24,9 +24,6 @@ from dq_marine.vehicles import Vehicle
 
 Array = NDArray[np.float64]
 
-FULL_HELM_DEG = 35.0
-"""What a rudder's full deflection is taken for: 10 degrees of helm are 10/35 of full helm."""
-
 LONGEST = 300.0
 """Times of one length that the test may take."""
 
@@ -165,7 +162,8 @@ def zig_zag(
     Args:
         vehicle: what turns.
         angle: heading change that reverses the helm, above 0 and below pi/2 [rad].
-        helm: fraction of full helm, above 0 and at most 1; None for `angle` over 35 degrees, but at most 1.
+        helm: fraction of full helm, above 0 and at most 1; None for as much rudder as `angle`, but at most 1: full
+            helm is the rudder's largest deflection, 35 degrees of a vehicle without.
         side: to which the helm is put first, "starboard" or "port".
         overshoots: how many are waited for.
         conditions: full throttle unless given.
@@ -176,9 +174,11 @@ def zig_zag(
         StepNotSolvableError: the integrator refused a step.
     """
     angle, sign = _checked_angle(angle), sign_of(side)
-    helm = min(math.degrees(angle) / FULL_HELM_DEG, 1.0) if helm is None else fraction("helm", helm)
+    if helm is not None:
+        fraction("helm", helm)
     overshoots = positive_integer("overshoots", overshoots)
     craft = prepared(vehicle, conditions or Conditions())
+    helm = min(angle / craft.steering.full_angle, 1.0) if helm is None else float(helm)
     start = approached(craft, "zig-zag", watch)
     run, throttle = start.run, craft.conditions.throttle
     helmsman = ZigZagHelmsman(angle, helm, sign)
@@ -195,7 +195,7 @@ def zig_zag(
         vehicle=vehicle.name,
         length=craft.length,
         width=vehicle.dimensions.width,
-        settings={"throttle": throttle, "angle_deg": math.degrees(angle), "helm": helm, "side": side},
+        settings=craft.settings | {"angle_deg": math.degrees(angle), "helm": helm, "side": side},
         step=craft.scene.step,
         series=series,
         notes=(*start.notes, *_notes(swings, series)),
