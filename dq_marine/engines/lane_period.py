@@ -45,7 +45,8 @@ from dq_marine.kernel.vector3 import dot
 class PeriodLayout:
     """How environments lie in memory: the type of their own numbers, a packing for each structure, and a pool's layout.
 
-    There is no pool where episodes keep their vehicle. `restless` is whether episodes begin at a time of their own, which is drawn.
+    There is no pool where episodes keep their vehicle. `restless` is whether episodes begin at a time of their own,
+    which is drawn.
     """
 
     lanes: Lanes
