@@ -32,11 +32,13 @@ class WaveTransfer(NamedTuple):
 
     Attributes:
         sea: the components.
+        harmonics: of each component: short waves need more.
         transfer: a F_n: for each component, for n = 0, 1, ..., 24 numbers: of the cosine part the real parts of X, Y,
             Z, K, M, N and their imaginary parts, then those of the sine part [N, N m].
     """
 
     sea: WaveField
+    harmonics: Table
     transfer: Table
 
 
@@ -74,17 +76,16 @@ def transferred_waves(parameters: WaveTransfer, pose: DualQuaternion, time: floa
     """Return the wrench of all components."""
     sea, transfer, place = parameters.sea, parameters.transfer, pose_position(pose)
     ahead, aside = heading_of(pose.real)
-    harmonics = len(transfer) // (NUMBERS_OF_A_HARMONIC * len(sea.amplitude))
     zero = spread(0.0, ahead)
     x, y, z = zero, zero, zero
     k, m, n = zero, zero, zero
+    first = 0
     for j in range(len(sea.amplitude)):
         sine, cosine = sine_and_cosine(wave_phase(sea, j, place[0], place[1], time))
         north, east = sea.north[j] / sea.wave_number[j], sea.east[j] / sea.wave_number[j]
         turn_cosine, turn_sine = north * ahead + east * aside, east * ahead - north * aside
         by_cosine, by_sine = zero + 1.0, zero
-        for harmonic in range(harmonics):
-            first = NUMBERS_OF_A_HARMONIC * (j * harmonics + harmonic)
+        for _ in range(int(parameters.harmonics[j])):
             of_cosine = (by_cosine * cosine, by_cosine * sine)
             of_sine = (by_sine * cosine, by_sine * sine)
             force = harmonic_part(transfer, first, of_cosine, of_sine)
@@ -95,4 +96,5 @@ def transferred_waves(parameters: WaveTransfer, pose: DualQuaternion, time: floa
                 by_cosine * turn_cosine - by_sine * turn_sine,
                 by_sine * turn_cosine + by_cosine * turn_sine,
             )
+            first += NUMBERS_OF_A_HARMONIC
     return Spatial((k, m, n), (x, y, z))

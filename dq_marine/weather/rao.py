@@ -92,12 +92,12 @@ class ForceRAO:
         within = frequencies <= self.frequencies[-1] * (1.0 + 1e-12)
         return np.asarray(between * within[:, None, None])
 
-    def series(self, frequencies: Array, amplitudes: Array) -> ComplexArray:
-        """Return the series in the heading that follows F, shape (len(frequencies), harmonics, 2, 6).
+    def series(self, frequencies: Array, amplitudes: Array) -> list[ComplexArray]:
+        """Return the series in the heading that follow F, one for each frequency, each of shape (harmonics, 2, 6).
 
-        Its entries [j, n, 0] and [j, n, 1] go with cos(n beta) and sin(n beta). There are as many harmonics as are
-        needed to follow every axis's force to 1 % (root mean square over the sea and the headings), or as the headings
-        can tell apart.
+        Their entries [n, 0] and [n, 1] go with cos(n beta) and sin(n beta). There are as many harmonics as are needed
+        to follow every axis's force to 1 % (root mean square over the sea and the headings), or as the headings can
+        tell apart: more for short waves.
 
         Args:
             frequencies: of the sea's components [rad/s].
@@ -113,22 +113,30 @@ class ForceRAO:
                 f"{math.degrees(LARGEST_GAP):.0f} degrees all around, for a symmetric hull by mirrored()"
             )
         values = self.at(frequencies)
-        weights = amplitudes[:, None, None]
-        size = np.sqrt(np.mean(np.abs(weights * values) ** 2, axis=(0, 1)))
-        most = min(MOST_HARMONICS, (len(self.headings) - 1) // 2)
-        for order in range(most + 1):
-            basis = np.stack(
-                [f(n * self.headings) for n in range(order + 1) for f in (np.cos, np.sin)], axis=1
-            )
-            fit = np.linalg.pinv(basis)
-            coefficients = np.einsum("cm,jmi->jci", fit, values)
-            missed = weights * (values - np.einsum("mc,jci->jmi", basis, coefficients))
-            if np.all(np.sqrt(np.mean(np.abs(missed) ** 2, axis=(0, 1))) <= FOLLOWED * size):
-                break
-        return np.asarray(coefficients.reshape(len(frequencies), order + 1, 2, 6))
+        counts = amplitudes[:, None, None]
+        allowed = FOLLOWED * np.sqrt(np.mean(np.abs(counts * values) ** 2, axis=(0, 1)))
+        found: list[ComplexArray] = [np.zeros((1, 2, 6), dtype=np.complex128)] * len(frequencies)
+        wanted = np.ones(len(frequencies), dtype=np.bool_)
+        for order in range(min(MOST_HARMONICS, (len(self.headings) - 1) // 2) + 1):
+            coefficients, missed = self._fitted(values, order)
+            for j in np.flatnonzero(wanted):
+                found[j] = coefficients[j].reshape(order + 1, 2, 6)
+            error = np.sqrt(np.mean(np.abs(counts * missed) ** 2, axis=1))
+            wanted &= np.any(error > allowed, axis=1)
+        return found
+
+    def _fitted(self, values: ComplexArray, order: int) -> tuple[ComplexArray, ComplexArray]:
+        """Return the coefficients of series of an order, (j, 2 order + 2, 6), and what they miss of (j, m, 6)."""
+        waves = [f(n * self.headings) for n in range(order + 1) for f in (np.cos, np.sin)]
+        basis = np.stack(waves, axis=1)
+        coefficients = np.einsum("cm,jmi->jci", np.linalg.pinv(basis), values)
+        return coefficients, values - np.einsum("mc,jci->jmi", basis, coefficients)
 
     def term(self, sea: Sea) -> ForceTerm:
         """Return the first-order force of a sea."""
-        coefficients = self.series(sea.frequencies, sea.amplitudes) * sea.amplitudes[:, None, None, None]
-        parts = np.stack([coefficients.real, coefficients.imag], axis=3)
-        return ForceTerm("waves", transferred_waves, WaveTransfer(sea.field, table(parts)))
+        series = self.series(sea.frequencies, sea.amplitudes)
+        scaled = [amplitude * one for amplitude, one in zip(sea.amplitudes, series, strict=True)]
+        parts = [np.stack([one.real, one.imag], axis=2).ravel() for one in scaled]
+        harmonics = table(np.array([float(len(one)) for one in series]))
+        parameters = WaveTransfer(sea.field, harmonics, table(np.concatenate(parts)))
+        return ForceTerm("waves", transferred_waves, parameters)

@@ -14,7 +14,16 @@ from dq_marine.kernel.spatial import Spatial, to_fossen
 from dq_marine.scene import Scene
 from dq_marine.terms import ForceTerm
 from dq_marine.vehicles import load_vehicle
-from dq_marine.weather import ForceRAO, Jonswap, Radiation, Sea, WaveLoads, read_force_rao
+from dq_marine.weather import (
+    ForceRAO,
+    Jonswap,
+    Radiation,
+    Sea,
+    SlowDrift,
+    WaveLoads,
+    Wind,
+    read_force_rao,
+)
 from dq_marine.weather.floating import HEADINGS, long_wave_rao
 
 RHO, G = 1000.0, 9.81
@@ -194,18 +203,43 @@ def test_hulls_in_lanes_have_the_bits_of_a_single_one():
     assert np.abs(single.velocity_body).max() > 1e-6
 
 
+def test_a_vessel_of_the_catalogue_rides_a_long_swell():
+    """Its own hydrostatics are found; it rises and falls with the surface where it is, wind or not."""
+    swell = Sea(Jonswap(0.3, 12.0), 0.7, components=1)
+    scene = Scene("otter", weather=[swell, SlowDrift(swell), Wind(3.0, 0.7)])
+    assert {"waves", "slow drift", "wind", "waterplane restoring"} <= set(scene.terms)
+    body = scene.stepper()
+    body.step(steps=2000)
+    heights, surface = [], []
+    for _ in range(48):
+        body.step(steps=25)
+        north, east, down = body.position_ned
+        heights.append(-down)
+        surface.append(float(swell.elevation(body.time, north, east)))
+    heights, surface = np.array(heights) - np.mean(heights), np.array(surface) - np.mean(surface)
+    assert np.abs(heights - surface).max() < 0.05 * surface.max()
+
+
 # Transfer functions
 
 
 def test_few_harmonics_follow_what_a_few_can_say():
     rao = some_rao(orders=4)
-    series = rao.series(np.array([0.5, 1.0]), np.ones(2))
+    series = np.array(rao.series(np.array([0.5, 1.0]), np.ones(2)))
     assert series.shape == (2, 4, 2, 6)
-    beta = np.arange(24) * math.radians(15.0)
-    n = np.arange(4)
+    beta, n = np.arange(24) * math.radians(15.0), np.arange(4)
     again = np.einsum("jni,nm->jmi", series[:, :, 0], np.cos(np.outer(n, beta)))
     again += np.einsum("jni,nm->jmi", series[:, :, 1], np.sin(np.outer(n, beta)))
     np.testing.assert_allclose(again, rao.transfer[:2], atol=1e-12)
+
+
+def test_short_waves_have_more_harmonics():
+    """A hull is as long as half a long wave, and as five short ones, which turn with it."""
+    sea = Sea(Jonswap(0.05, 2.2, gamma=1.0), components=20)
+    series = long_wave_rao(sea, barge(), stiffness()).series(sea.frequencies, sea.amplitudes)
+    harmonics = [len(one) for one in series]
+    assert harmonics[0] < harmonics[-1]
+    assert all(one.shape[1:] == (2, 6) for one in series)
 
 
 def test_a_symmetric_hull_is_told_by_one_side():
