@@ -102,8 +102,8 @@ def full_speed(vehicle: Vehicle) -> float:
     speed = terminal_speed(vehicle, SURGE)
     if speed == 0.0:
         raise InvalidInputError(
-            f"limits.wrench[{SURGE}] = 0: {vehicle.name!r} has nothing in surge to drive it ahead; give it a limit above "
-            "0, or a vehicle that has one"
+            f"limits.wrench[{SURGE}] = 0: {vehicle.name!r} has nothing in surge to drive it ahead; give it a limit "
+            "above 0, or a vehicle that has one"
         )
     if not math.isfinite(speed):
         raise InvalidInputError(

@@ -61,8 +61,8 @@ class WrenchSteering:
         self._limits = vehicle.wrench_limits
         if self._limits[YAW] == 0.0:
             raise InvalidInputError(
-                f"limits.wrench[{YAW}] = 0: {vehicle.name!r} has nothing in yaw to turn it; give it a limit above 0, or a "
-                "vehicle that has one"
+                f"limits.wrench[{YAW}] = 0: {vehicle.name!r} has nothing in yaw to turn it; give it a limit above 0, "
+                "or a vehicle that has one"
             )
 
     @property
