@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres.actuator_steering import ActuatorSteering
 from dq_marine.manoeuvres.conditions import Conditions
-from dq_marine.manoeuvres.steering import Steering, WrenchSteering
+from dq_marine.manoeuvres.steering import SURGE, Steering, WrenchSteering
 from dq_marine.scene import Scene
 from dq_marine.vehicles import Vehicle, vehicle_sheet
 from dq_marine.vehicles.sheet import terminal_speed
@@ -97,9 +97,14 @@ def full_speed(vehicle: Vehicle) -> float:
     """Return about what full throttle holds [m/s].
 
     Raises:
-        InvalidInputError: nothing damps the vehicle in surge.
+        InvalidInputError: nothing drives the vehicle ahead, or nothing damps it in surge.
     """
-    speed = terminal_speed(vehicle, 0)
+    speed = terminal_speed(vehicle, SURGE)
+    if speed == 0.0:
+        raise InvalidInputError(
+            f"limits.wrench[{SURGE}] = 0: {vehicle.name!r} has nothing in surge to drive it ahead; give it a limit "
+            "above 0, or a vehicle that has one"
+        )
     if not math.isfinite(speed):
         raise InvalidInputError(
             f"damping of {vehicle.name!r} in surge is 0: it would gain speed for ever; give damping.linear or "

@@ -34,25 +34,25 @@ class LinearMode:
 def stiffness_matrix(vehicle: Vehicle) -> Array:
     """Return G, upright: restoring wrench -G eta of small motions, Fossen's order, shape (6, 6).
 
-    Of a vessel that floats, its waterplane's. Under water, a small turn dphi moves "down" by d x dphi in the body
-    frame, and with it the righting moment arm x d.
+    Of a vessel that floats, its waterplane's and its loads'. Under water, a small turn dphi moves "down" by d x dphi in
+    the body frame, and with it the righting moment arm x d.
     """
     matrix = np.zeros((6, 6))
-    waterplane = vehicle.waterplane_stiffness
+    waterplane, arm = vehicle.waterplane_stiffness, vehicle.load_arm
     if waterplane is None:
-        matrix[3:, 3:] = -skew(vehicle.restoring_arm + vehicle.load_arm) @ skew(DOWN)
+        arm = arm + vehicle.restoring_arm
     else:
         matrix[2:5, 2:5] = waterplane
+    matrix[3:, 3:] -= skew(arm) @ skew(DOWN)
     return matrix
 
 
 def rest_of(vehicle: Vehicle) -> Array:
     """Return heave [m], roll and pitch [rad] at rest, shape (3,): what loads do to a vessel that floats."""
-    waterplane = vehicle.waterplane_stiffness
-    if waterplane is None:
+    if vehicle.hydrostatics is None:
         return np.zeros(3)
     x, y, _ = vehicle.load_arm
-    return np.linalg.solve(waterplane, np.array([vehicle.load_weight, y, -x]))
+    return np.linalg.solve(stiffness_matrix(vehicle)[2:5, 2:5], np.array([vehicle.load_weight, y, -x]))
 
 
 def linear_mode(vehicle: Vehicle, axis: int) -> LinearMode | None:

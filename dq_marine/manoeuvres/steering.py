@@ -56,15 +56,14 @@ class WrenchSteering:
         """Take the vehicle's limits.
 
         Raises:
-            InvalidInputError: the vehicle cannot be driven ahead or turned.
+            InvalidInputError: the vehicle cannot be turned.
         """
         self._limits = vehicle.wrench_limits
-        for axis, name, purpose in ((SURGE, "surge", "drive it ahead"), (YAW, "yaw", "turn it")):
-            if self._limits[axis] == 0.0:
-                raise InvalidInputError(
-                    f"limits.wrench[{axis}] = 0: {vehicle.name!r} has nothing in {name} to {purpose}; give it a limit "
-                    "above 0, or a vehicle that has one"
-                )
+        if self._limits[YAW] == 0.0:
+            raise InvalidInputError(
+                f"limits.wrench[{YAW}] = 0: {vehicle.name!r} has nothing in yaw to turn it; give it a limit above 0, "
+                "or a vehicle that has one"
+            )
 
     @property
     def full_angle(self) -> float:
