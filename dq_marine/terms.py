@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.kernel.branching import branching_pose_force, branching_velocity_force
+from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent, Water
 from dq_marine.kernel.damping import DiagonalDamping, FullDamping
 from dq_marine.kernel.inertia import Inertia
 from dq_marine.kernel.kick import (
@@ -120,6 +121,27 @@ def nested_parameters(terms: tuple[ForceTerm, ...]) -> Any:
     for term in reversed(terms):
         nested = (term.parameters, nested)
     return nested
+
+
+class WaterTerm(NamedTuple):
+    """What the water does.
+
+    Attributes:
+        name: of the term; empty if the water is still.
+        water: the kernel's functions.
+        parameters: their numbers, nested tuples.
+    """
+
+    name: str
+    water: Water
+    parameters: Any
+
+
+def uniform_water(current_ned: Array) -> WaterTerm:
+    """Return water that moves with a velocity in NED [m/s], shape (3,): still water if that is zero."""
+    if not current_ned.any():
+        return WaterTerm("", STILL_WATER, ())
+    return WaterTerm("current", MOVING_WATER, UniformCurrent(vector3(current_ned)))
 
 
 class DampingTerm(NamedTuple):

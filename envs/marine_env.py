@@ -6,7 +6,7 @@ import copy
 import math
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any, ClassVar
 
 import gymnasium as gym
@@ -18,18 +18,24 @@ from dq_marine.checks import finite_number, positive_integer
 from dq_marine.engines.control_period import ACTION_NOT_FINITE, compiled_control_period
 from dq_marine.engines.one_body import REFUSALS
 from dq_marine.engines.packing import pack, structure_type, unpack
+from dq_marine.envs.currents import (
+    EnvironmentCurrent,
+    check_current,
+    current_met,
+    drawn_current,
+    parameters_of,
+)
 from dq_marine.envs.episode import Episode
-from dq_marine.envs.start import AT_ORIGIN, as_chosen, checked_options, drawn_speed_and_fixed_current
+from dq_marine.envs.start import as_chosen, at_origin, checked_options
 from dq_marine.envs.view import EpisodeView
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.beginning import CURRENT_DRAWS, CurrentDraw, Drawn, make_beginning, make_draw
+from dq_marine.kernel.beginning import Drawn, beginning_draws, make_beginning, make_draw
 from dq_marine.kernel.body import Motion
 from dq_marine.kernel.spatial import to_fossen
-from dq_marine.kernel.step import ACCEPTED, StepParameters, make_motion
-from dq_marine.kernel.task import Task
+from dq_marine.kernel.step import ACCEPTED, make_motion
+from dq_marine.kernel.task import Task, draws_of_period
 from dq_marine.kernel.vector3 import dot
 from dq_marine.scene import Scene
-from dq_marine.terms import vector3
 from dq_marine.vehicles import Vehicle, load_vehicle
 from dq_marine.viewer.snapshot import Snapshot
 
@@ -41,7 +47,7 @@ Action = NDArray[np.float32]
 
 
 class MarineEnv(gym.Env[Observation, Action], ABC):
-    """One vehicle in a uniform current, driven by body thrust and torque.
+    """One vehicle in a current, driven by body thrust and torque.
 
     A task derives from it, names its kernel functions in `task` and says how goals and starts are drawn.
 
@@ -60,7 +66,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self,
         vehicle: Vehicle | str | os.PathLike[str],
         *,
-        current: float | Sequence[float],
+        current: EnvironmentCurrent,
         control_period: float,
         substeps: int,
         scheme: str,
@@ -73,9 +79,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.substeps = positive_integer("substeps", substeps)
         if self.substeps > MOST_SUBSTEPS:
             raise InvalidInputError(f"substeps = {self.substeps}; give at most {MOST_SUBSTEPS}")
-        self.current_speed, self.current_ned = drawn_speed_and_fixed_current(current)
-        self.current_draw = CurrentDraw(vector3(self.current_ned), self.current_speed)
-        largest = np.array([self.current_speed, 0.0, 0.0]) + self.current_ned
+        largest, self.current_draw = drawn_current(current)
+        self.current_speed = self.current_draw.speed
         step = self.control_period / self.substeps
         self.scene = Scene(self.vehicle, current=largest, scheme=scheme, step=step)
         modes = self.metadata["render_modes"]
@@ -89,13 +94,13 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         bound = self.observation_bound
         self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self._axes),), np.float32)
         self.observation_space = gym.spaces.Box(-bound, bound, dtype=np.float32)
-        self.base_parameters = self.scene.parameters_at(step)
+        self.base_parameters = parameters_of(self.scene, self.control_period)
+        self._period_draws = len(pack(draws_of_period(self.scene.composition, self.task)))
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
         self._view = EpisodeView(self)
         self.substeps_rescued = 0
         self._episode: Episode | None = None
-        self._parameters = self.base_parameters
 
     # What a task adds
 
@@ -136,10 +141,9 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         super().reset(seed=seed)
         chosen = self.checked_options(options)
         aim = self.new_aim(chosen)
-        uniforms = self.np_random.random(CURRENT_DRAWS + self.task.draws)
-        drawn = make_draw(self.task)(aim, self.current_draw, tuple(uniforms.tolist()))
+        uniforms = self.np_random.random(beginning_draws(self.task))
+        drawn = make_draw(self.scene.composition, self.task)(aim, self.current_draw, tuple(uniforms.tolist()))
         self._episode = self._new_episode(aim, as_chosen(drawn, chosen))
-        self._parameters = self._parameters_in(self._episode.current_ned)
         self._view.begin(self)
         return self.observation, self._info() | {"current_ned": self._episode.current_ned.copy()}
 
@@ -158,6 +162,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """
         episode = self._running("step")
         command = self._command(action)
+        uniforms = self._uniforms(command)
         status, completed, rescued, residual_squared, reward, terminated = self._compiled(
             episode.parameters,
             episode.aim,
@@ -168,6 +173,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             episode.measures,
             episode.periods * self.control_period,
             self.substeps,
+            uniforms,
         )
         if status == ACTION_NOT_FINITE:
             raise InvalidInputError(
@@ -176,6 +182,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.substeps_rescued += rescued
         episode.action = command
         episode.periods += 1
+        episode.current_ned = current_met(self.scene, self.base_parameters, episode)
         info = self._info()
         if status != ACCEPTED:
             velocity = self.motion.velocity
@@ -225,7 +232,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     @property
     def motion(self) -> Motion:
         """Position, attitude and velocity over ground now."""
-        return self._motion(self._parameters, self._running("motion").body)
+        parameters = unpack(self.base_parameters, self._running("motion").parameters)
+        return self._motion(parameters, self.episode.body)
 
     @property
     def time(self) -> float:
@@ -264,7 +272,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """
         if not isinstance(state, dict) or "random" not in state:
             raise InvalidInputError("the state is not what get_state() returned: it has no entry 'random'")
-        template = self._new_episode(self.new_aim({}), AT_ORIGIN)
+        template = self._new_episode(self.new_aim({}), at_origin(self.task.period_draws))
         episode = template.restored({name: value for name, value in state.items() if name != "random"})
         random = np.random.default_rng()
         try:
@@ -279,7 +287,6 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.np_random = random
         self._np_random_seed = seed
         self._episode = episode
-        self._parameters = self._parameters_in(episode.current_ned)
 
     @property
     def episode(self) -> Episode:
@@ -351,6 +358,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     def _new_episode(self, aim: Any, drawn: Drawn) -> Episode:
         """Return an episode at its start, by the same formulas that run compiled."""
         begun = make_beginning(self.scene.composition, self.task)(self.base_parameters, aim, drawn)
+        current = self.scene.composition.water.velocity(begun.water, begun.state.pose)
         return Episode(
             parameters=pack(self.base_parameters._replace(water=begun.water)),
             aim=pack(aim),
@@ -359,7 +367,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             action=np.zeros(6),
             observation=pack(begun.observation).astype(np.float32),
             measures=pack(begun.measures),
-            current_ned=np.array(drawn.current_ned),
+            current_ned=np.array(current),
         )
 
     def _command(self, action: Action) -> NDArray[np.float64]:
@@ -379,20 +387,15 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         measures = dict(zip(self.task.measure_names, numbers, strict=True))
         return measures | {"is_success": self.succeeds(measures)}
 
-    def _parameters_in(self, current: NDArray[np.float64]) -> StepParameters:
-        """Return the step's parameters in the given current."""
-        x, y, z = current.tolist()
-        return self.base_parameters._replace(water=self.scene.composition.water.flow((x, y, z)))
+    def _uniforms(self, command: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return random numbers for a control period; none are drawn for an action that will be refused."""
+        wanted = self._period_draws and np.isfinite(command).all()
+        return self.np_random.random(self._period_draws) if wanted else np.zeros(self._period_draws)
 
     def checked_options(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
         """Return reset's options as arrays."""
         chosen = checked_options(options)
-        current = chosen.get("current")
-        if current is not None and current.any() and not self.base_parameters.water:
-            raise InvalidInputError(
-                f"options['current'] = {current.tolist()}, but the environment was made without a current; make "
-                "it with current=<largest speed>"
-            )
+        check_current(chosen, self.scene)
         return chosen
 
 

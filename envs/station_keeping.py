@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.checks import finite_array, finite_number, unit_quaternion
+from dq_marine.envs.currents import EnvironmentCurrent
 from dq_marine.envs.marine_env import MarineEnv
 from dq_marine.envs.station_keeping_task import INTEGRAL_BOUND, SPEED_BOUND, TASK, Aim, Weights
 from dq_marine.envs.vector_env import DQMarineVectorEnv
@@ -89,7 +90,7 @@ class StationKeepingEnv(MarineEnv):
         self,
         vehicle: Vehicle | str | os.PathLike[str] = "bluerov2_heavy",
         *,
-        current: float | Sequence[float] = 0.3,
+        current: EnvironmentCurrent = 0.3,
         control_period: float = 0.1,
         substeps: int = 4,
         scheme: str = "midpoint",
@@ -105,7 +106,8 @@ class StationKeepingEnv(MarineEnv):
         Args:
             vehicle: a catalogue name, the path of a TOML file, or a `Vehicle`.
             current: a speed [m/s]: each episode draws a horizontal current of up to it, of any direction; or
-                three numbers: this current in NED, always.
+                three numbers: this current in NED, always; or a `dq_marine.currents.CurrentProfile` or
+                `GaussMarkovCurrent`, or a dictionary of its attributes.
             control_period: time between actions [s].
             substeps: integrator steps in a control period.
             scheme: the integrator's drift, by name.

@@ -2,7 +2,7 @@
 
 The functions of a task take its parameters first and return tuples of numbers, like the rest of the kernel, so
 that an environment's formulas stand in one place whether they run in plain Python, compiled for one body, or in
-lanes. One control period is: act, advance, remember, then observe and judge.
+lanes. One control period is: act, advance, sense, remember, then observe and judge.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from dq_marine.kernel.step import (
     Composition,
     StepOutcome,
     StepParameters,
+    in_water,
     make_advance,
     make_motion,
 )
@@ -48,6 +49,11 @@ class Start(NamedTuple):
     velocity: Spatial
 
 
+def sense_nothing(aim: Any, memory: Any, motion: Motion, uniforms: Any) -> Any:
+    """Return the memory: the task has no sensors, and knows the motion as it is."""
+    return memory
+
+
 @dataclass(frozen=True)
 class Task:
     """The functions of a task.
@@ -62,6 +68,9 @@ class Task:
         judge: (parameters, motion, action) -> Verdict.
         measure_names: names of the verdict's measures.
         episode_fields: of the parameters, those that may differ between episodes.
+        sense: (parameters, memory, motion, uniforms) -> memory with what is measured at the end of a control period,
+            or at an episode's start.
+        period_draws: how many uniform random numbers in [0, 1) `sense` takes.
     """
 
     draws: int
@@ -73,6 +82,15 @@ class Task:
     judge: Callable[[Any, Motion, Any], Verdict]
     measure_names: tuple[str, ...]
     episode_fields: tuple[str, ...]
+    sense: Callable[[Any, Any, Motion, Any], Any] = sense_nothing
+    period_draws: int = 0
+
+
+class PeriodUniforms(NamedTuple):
+    """Uniform random numbers in [0, 1) for one control period: for the water, and for the task's sensors."""
+
+    water: tuple[float, ...]
+    sensing: tuple[float, ...]
 
 
 class PeriodOutcome(NamedTuple):
@@ -82,18 +100,31 @@ class PeriodOutcome(NamedTuple):
     """
 
     step: StepOutcome
+    water: Any
     memory: Any
     observation: Any
     verdict: Verdict
 
 
+def no_choice(condition: bool, chosen: Any, otherwise: Any) -> Any:
+    """Return `chosen`, from which `otherwise` does not differ."""
+    return chosen
+
+
+def draws_of_period(composition: Composition, task: Task) -> PeriodUniforms:
+    """Return zeros for the uniform random numbers that a control period takes."""
+    return PeriodUniforms((0.0,) * composition.water.draws, (0.0,) * task.period_draws)
+
+
 def make_control_period(
     composition: Composition, task: Task
-) -> Callable[[StepParameters, Any, BodyState, Any, Any, float, int], PeriodOutcome]:
-    """Return (parameters, task parameters, state, memory, action, time, steps) -> outcome: one control period."""
+) -> Callable[[StepParameters, Any, BodyState, Any, Any, float, int, PeriodUniforms], PeriodOutcome]:
+    """Return (parameters, task parameters, state, memory, action, time, steps, uniforms) -> outcome."""
     advance = make_advance(composition)
     motion_of = make_motion(composition)
-    act, remember, observe, judge = task.act, task.remember, task.observe, task.judge
+    act, sense, remember = task.act, task.sense, task.remember
+    observe, judge, evolve = task.observe, task.judge, composition.water.evolve
+    choose_water = select if composition.water.draws else no_choice
 
     def control_period(
         parameters: StepParameters,
@@ -103,16 +134,21 @@ def make_control_period(
         action: Any,
         time: float,
         steps: int,
+        uniforms: PeriodUniforms,
     ) -> PeriodOutcome:
-        step = advance(parameters, state, act(aim, action), time, steps)
+        moving = evolve(parameters.water, time, uniforms.water)
+        step = advance(in_water(parameters, moving), state, act(aim, action), time, steps)
         taken = step.status == ACCEPTED
-        motion = motion_of(parameters, step.state)
-        memory_after = select(taken, remember(aim, memory, motion), memory)
+        water = choose_water(taken, moving, parameters.water)
+        motion = motion_of(in_water(parameters, water), step.state)
+        sensed = sense(aim, memory, motion, uniforms.sensing)
+        memory_after = select(taken, remember(aim, sensed, motion), memory)
         verdict = judge(aim, motion, action)
         reward = select(taken, verdict.reward, 0.0)
         terminated = select(taken, verdict.terminated, 1.0)
         return PeriodOutcome(
             step,
+            water,
             memory_after,
             observe(aim, memory_after, motion),
             Verdict(reward, terminated, verdict.measures),

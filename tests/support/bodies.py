@@ -6,7 +6,7 @@ import numpy as np
 
 from dq_marine.assembly import Assembly
 from dq_marine.engines.one_body import OneBody
-from dq_marine.terms import DampingTerm, restoring_terms
+from dq_marine.terms import DampingTerm, WaterTerm, restoring_terms, uniform_water
 
 
 def random_inertia(rng, condition=20.0, coupled=True):
@@ -53,7 +53,7 @@ def make_body(
         mass_matrix,
         (*restoring_terms(excess_weight, np.asarray(arm, dtype=float)), *forces),
         DampingTerm(linear, quadratic, mass_matrix, l_stable),
-        np.asarray(current, dtype=float),
+        current if isinstance(current, WaterTerm) else uniform_water(np.asarray(current, dtype=float)),
         scheme,
         order,
     )
