@@ -26,7 +26,7 @@ from dq_marine.envs.currents import (
     parameters_of,
 )
 from dq_marine.envs.episode import Episode
-from dq_marine.envs.start import as_chosen, at_origin, checked_options
+from dq_marine.envs.start import as_chosen, at_origin, checked_options, drawn_uniforms
 from dq_marine.envs.view import EpisodeView
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.beginning import Drawn, beginning_draws, make_beginning, make_draw
@@ -60,7 +60,6 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 10}  # type: ignore[misc]
-    task: ClassVar[Task]
 
     def __init__(
         self,
@@ -103,6 +102,11 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self._episode: Episode | None = None
 
     # What a task adds
+
+    @property
+    @abstractmethod
+    def task(self) -> Task:
+        """Its formulas."""
 
     @property
     @abstractmethod
@@ -162,7 +166,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """
         episode = self._running("step")
         command = self._command(action)
-        uniforms = self._uniforms(command)
+        uniforms = drawn_uniforms(self.np_random, self._period_draws, command)
         status, completed, rescued, residual_squared, reward, terminated = self._compiled(
             episode.parameters,
             episode.aim,
@@ -272,7 +276,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """
         if not isinstance(state, dict) or "random" not in state:
             raise InvalidInputError("the state is not what get_state() returned: it has no entry 'random'")
-        template = self._new_episode(self.new_aim({}), at_origin(self.task.period_draws))
+        template = self._new_episode(self.new_aim({}), at_origin(self.task.sensing.first_draws))
         episode = template.restored({name: value for name, value in state.items() if name != "random"})
         random = np.random.default_rng()
         try:
@@ -386,11 +390,6 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         numbers = self._running("info").measures.tolist()
         measures = dict(zip(self.task.measure_names, numbers, strict=True))
         return measures | {"is_success": self.succeeds(measures)}
-
-    def _uniforms(self, command: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return random numbers for a control period; none are drawn for an action that will be refused."""
-        wanted = self._period_draws and np.isfinite(command).all()
-        return self.np_random.random(self._period_draws) if wanted else np.zeros(self._period_draws)
 
     def checked_options(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
         """Return reset's options as arrays."""

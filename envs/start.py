@@ -39,6 +39,13 @@ def as_chosen(drawn: Drawn, chosen: dict[str, NDArray[np.float64]]) -> Drawn:
     return Drawn(start, values["current"], drawn.for_sensing)
 
 
+def drawn_uniforms(
+    random: np.random.Generator, count: int, command: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return uniform random numbers for a control period; none are drawn for a command that will be refused."""
+    return random.random(count) if count and np.isfinite(command).all() else np.zeros(count)
+
+
 def checked_options(options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
     """Return `reset`'s options as arrays.
 

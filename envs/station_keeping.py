@@ -21,7 +21,10 @@ from dq_marine.envs.station_keeping_task import INTEGRAL_BOUND, SPEED_BOUND, TAS
 from dq_marine.envs.vector_env import DQMarineVectorEnv
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.quaternion import Quaternion
+from dq_marine.kernel.sensing import with_sensors
+from dq_marine.kernel.task import Task
 from dq_marine.kernel.vector3 import Vector3
+from dq_marine.sensors import Sensors, nested_numbers, sensors_of, shown_bounds
 from dq_marine.vehicles import Vehicle
 
 LARGEST_WORKSPACE = 1e4
@@ -77,14 +80,13 @@ class StationKeepingEnv(MarineEnv):
     Action: Box(-1, 1, (n,)), the thrust and torque of the n actuated axes, in the order surge, sway, heave, roll,
     pitch, yaw, over the vehicle's limits. Beyond the box it saturates.
 
-    Observation: see `station_keeping_task.observe`, 18 numbers in SI units. `info` has `position_error` [m],
+    Observation: see `station_keeping_task.observe`, 18 numbers in SI units; with `sensors` of the measured motion, and
+    followed by the age of each sensor's reading [s] (up to 60) and what else it shows. `info` has `position_error` [m],
     `attitude_error` [rad] and `is_success`; after a refused step also `integration`.
 
     An episode ends (terminated) beyond `workspace_radius` or at a refused step; `gym.make` truncates it after 300
     control periods, 30 s.
     """
-
-    task = TASK
 
     def __init__(
         self,
@@ -98,6 +100,7 @@ class StationKeepingEnv(MarineEnv):
         goal_position: Sequence[float] = (0.0, 0.0, 5.0),
         start_radius: float = 2.0,
         workspace_radius: float = 6.0,
+        sensors: Sensors = None,
         render_mode: str | None = None,
         record: bool = False,
     ) -> None:
@@ -115,6 +118,8 @@ class StationKeepingEnv(MarineEnv):
             goal_position: in NED [m].
             start_radius: episodes start within this distance of the goal [m], one in ten at the goal itself.
             workspace_radius: episodes end beyond this distance from the goal [m].
+            sensors: what the agent is told by, see `dq_marine.sensors`: "auv", a list of sensors, or a dictionary; None
+                for the motion as it is.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.
 
@@ -136,6 +141,8 @@ class StationKeepingEnv(MarineEnv):
                 f"start_radius = {self.start_radius:g} m; give 0 or more and less than the workspace_radius, "
                 f"{self.workspace_radius:g} m"
             )
+        self.sensors = sensors_of(sensors)
+        self._instruments = tuple(one.instrument for one in self.sensors)
         super().__init__(
             vehicle,
             current=current,
@@ -147,14 +154,20 @@ class StationKeepingEnv(MarineEnv):
         )
 
     @property
+    def task(self) -> Task:
+        """The formulas, told by sensors if there are any."""
+        return with_sensors(TASK, self._instruments) if self._instruments else TASK
+
+    @property
     def observation_bound(self) -> NDArray[np.float32]:
-        """Largest magnitude of each observed number, shape (18,)."""
+        """Largest magnitude of each observed number, shape (18,) or more."""
         rotated_integral = math.sqrt(3.0) * INTEGRAL_BOUND
         bounds = [
             *[self.workspace_radius] * 3,
             *[1.0] * 6,
             *[SPEED_BOUND] * 6,
             *[rotated_integral * (1.0 + 1e-6)] * 3,
+            *shown_bounds(self.sensors),
         ]
         return np.array(bounds, dtype=np.float32)
 
@@ -178,6 +191,7 @@ class StationKeepingEnv(MarineEnv):
             tuple(limits.tolist()),
             float(np.count_nonzero(limits)),
             Weights(**{field.name: float(getattr(self.reward, field.name)) for field in fields(self.reward)}),
+            nested_numbers(self.sensors, self.control_period),
         )
 
     def goal_pose(self, aim: Aim) -> tuple[Vector3, Quaternion]:

@@ -62,6 +62,7 @@ class Aim(NamedTuple):
         wrench_limits: wrench at full action.
         axes: number of actuated axes.
         weights: of the reward.
+        sensors: their numbers, nested in pairs; see `kernel.sensing`.
     """
 
     position_ned: Vector3
@@ -72,6 +73,7 @@ class Aim(NamedTuple):
     wrench_limits: tuple[float, float, float, float, float, float]
     axes: float
     weights: Weights
+    sensors: Any
 
 
 class Memory(NamedTuple):

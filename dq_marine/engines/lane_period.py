@@ -269,7 +269,7 @@ def compiled_period(
     store_aim, store_outcome = stores.aim, stores.outcome
     control_period, begin_one = make_control_period(composition, task), make_begin_one(composition, task)
     motion_of = make_motion(composition)
-    draw_uniforms = make_lane_uniforms(composition.water.draws, task.period_draws)
+    draw_uniforms = make_lane_uniforms(composition.water.draws, task.sensing.later_draws)
     keep_water = store_parameters if composition.water.draws else keep_nothing
 
     def period_blocks(

@@ -42,7 +42,7 @@ class Beginning(NamedTuple):
 
 def beginning_draws(task: Task) -> int:
     """Return how many uniform random numbers an episode's beginning takes."""
-    return CURRENT_DRAWS + task.draws + task.period_draws
+    return CURRENT_DRAWS + task.draws + task.sensing.first_draws
 
 
 def make_draw(composition: Composition, task: Task) -> Callable[[Any, CurrentDraw, tuple[float, ...]], Drawn]:
@@ -61,7 +61,7 @@ def make_beginning(composition: Composition, task: Task) -> Callable[[StepParame
     """Return (parameters, task parameters, drawn) -> Beginning."""
     flow = composition.water.flow
     place, motion_of = make_placement(composition), make_motion(composition)
-    forget, sense, observe, judge = task.forget, task.sense, task.observe, task.judge
+    forget, sense, observe, judge = task.forget, task.sensing.first, task.observe, task.judge
 
     def begin(parameters: StepParameters, aim: Any, drawn: Drawn) -> Beginning:
         start, flowing = drawn.start, in_water(parameters, flow(parameters.water, drawn.current_ned))

@@ -54,6 +54,25 @@ def sense_nothing(aim: Any, memory: Any, motion: Motion, uniforms: Any) -> Any:
     return memory
 
 
+class Sensing(NamedTuple):
+    """What a task's sensors do; both functions are (parameters, memory, motion, uniforms) -> memory.
+
+    Attributes:
+        first: what they read at an episode's start.
+        first_draws: how many uniform random numbers in [0, 1) that takes.
+        later: what they read at the end of a control period.
+        later_draws: how many that takes.
+    """
+
+    first: Callable[[Any, Any, Motion, Any], Any]
+    first_draws: int
+    later: Callable[[Any, Any, Motion, Any], Any]
+    later_draws: int
+
+
+NO_SENSORS = Sensing(sense_nothing, 0, sense_nothing, 0)
+
+
 @dataclass(frozen=True)
 class Task:
     """The functions of a task.
@@ -68,9 +87,7 @@ class Task:
         judge: (parameters, motion, action) -> Verdict.
         measure_names: names of the verdict's measures.
         episode_fields: of the parameters, those that may differ between episodes.
-        sense: (parameters, memory, motion, uniforms) -> memory with what is measured at the end of a control period,
-            or at an episode's start.
-        period_draws: how many uniform random numbers in [0, 1) `sense` takes.
+        sensing: what sensors do to the memory.
     """
 
     draws: int
@@ -82,8 +99,7 @@ class Task:
     judge: Callable[[Any, Motion, Any], Verdict]
     measure_names: tuple[str, ...]
     episode_fields: tuple[str, ...]
-    sense: Callable[[Any, Any, Motion, Any], Any] = sense_nothing
-    period_draws: int = 0
+    sensing: Sensing = NO_SENSORS
 
 
 class PeriodUniforms(NamedTuple):
@@ -113,7 +129,7 @@ def no_choice(condition: bool, chosen: Any, otherwise: Any) -> Any:
 
 def draws_of_period(composition: Composition, task: Task) -> PeriodUniforms:
     """Return zeros for the uniform random numbers that a control period takes."""
-    return PeriodUniforms((0.0,) * composition.water.draws, (0.0,) * task.period_draws)
+    return PeriodUniforms((0.0,) * composition.water.draws, (0.0,) * task.sensing.later_draws)
 
 
 def make_control_period(
@@ -122,7 +138,7 @@ def make_control_period(
     """Return (parameters, task parameters, state, memory, action, time, steps, uniforms) -> outcome."""
     advance = make_advance(composition)
     motion_of = make_motion(composition)
-    act, sense, remember = task.act, task.sense, task.remember
+    act, sense, remember = task.act, task.sensing.later, task.remember
     observe, judge, evolve = task.observe, task.judge, composition.water.evolve
     choose_water = select if composition.water.draws else no_choice
 
