@@ -228,10 +228,10 @@ def sensors_of(sensors: Sensors) -> tuple[Sensor, ...]:
         return PRESETS[sensors]
     if isinstance(sensors, Mapping):
         return _from_mapping(sensors)
-    given = list(sensors) if isinstance(sensors, Sequence) else [sensors]
+    given: list[Any] = list(sensors) if isinstance(sensors, Sequence) else [sensors]
     if not all(isinstance(one, Sensor) for one in given):
         raise InvalidInputError(
-            f"sensors = {sensors!r}; give one of {sorted(PRESETS)}, a list of dq_marine.sensors' classes, or a dictionary"
+            f"sensors = {sensors!r}; give one of {sorted(PRESETS)}, a list of sensors, or a dictionary of them"
         )
     kinds = [type(one).__name__ for one in given]
     if len(set(kinds)) < len(kinds):

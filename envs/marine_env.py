@@ -36,7 +36,7 @@ from dq_marine.kernel.step import ACCEPTED, make_motion
 from dq_marine.kernel.task import Task, draws_of_period
 from dq_marine.kernel.vector3 import dot
 from dq_marine.scene import Scene
-from dq_marine.vehicles import Vehicle, load_vehicle
+from dq_marine.vehicles import Vehicle
 from dq_marine.viewer.snapshot import Snapshot
 
 MOST_SUBSTEPS = 10_000
@@ -73,15 +73,14 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         record: bool,
     ) -> None:
         """Check and compose; see the tasks for the arguments."""
-        self.vehicle = load_vehicle(vehicle)
         self.control_period = finite_number("control_period", control_period, above=0.0)
         self.substeps = positive_integer("substeps", substeps)
         if self.substeps > MOST_SUBSTEPS:
             raise InvalidInputError(f"substeps = {self.substeps}; give at most {MOST_SUBSTEPS}")
-        largest, self.current_draw = drawn_current(current)
+        wanted, self.current_draw = drawn_current(current)
         self.current_speed = self.current_draw.speed
-        step = self.control_period / self.substeps
-        self.scene = Scene(self.vehicle, current=largest, scheme=scheme, step=step)
+        self.scene = Scene(vehicle, current=wanted, scheme=scheme, step=self.control_period / self.substeps)
+        self.vehicle = self.scene.vehicle
         modes = self.metadata["render_modes"]
         if render_mode is not None and render_mode not in modes:
             raise InvalidInputError(f"render_mode = {render_mode!r}; give None or one of {modes}")
