@@ -42,11 +42,8 @@ def imperfect(**errors):
 def flown(env, periods=15, seed=3):
     """Observation, reward, terminated, truncated, info of every period."""
     observation, info = env.reset(seed=seed)
-    results = [(observation, 0.0, False, False, info)]
-    random = np.random.default_rng(seed)
-    for _ in range(periods):
-        results.append(env.step(random.uniform(-1.0, 1.0, 6).astype(np.float32)))
-    return results
+    actions = np.random.default_rng(seed).uniform(-1.0, 1.0, (periods, 6)).astype(np.float32)
+    return [(observation, 0.0, False, False, info), *map(env.step, actions)]
 
 
 def observations(results):
