@@ -22,6 +22,7 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.agents.outlets import OUTLETS, Outlet
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.rotation import rotation_vector
 from dq_marine.agents.settings import ControllerSettings, LoopSettings
@@ -90,7 +91,11 @@ class DPController:
     """
 
     def __init__(
-        self, vehicle: Vehicle, control_period: float, settings: ControllerSettings | None = None
+        self,
+        vehicle: Vehicle,
+        control_period: float,
+        settings: ControllerSettings | None = None,
+        actuation: str = "wrench",
     ) -> None:
         """Derive the gains.
 
@@ -98,9 +103,11 @@ class DPController:
             vehicle: its mass matrix, weight, buoyancy and limits are used.
             control_period: time between actions [s].
             settings: where the poles go; None reads the preset `dp_controller`.
+            actuation: what the environment's action drives: see `StationKeepingEnv`.
 
         Raises:
-            InvalidInputError: the poles are too fast for the control period.
+            InvalidInputError: the poles are too fast for the control period, or a value is wrong.
+            MissingDependencyError: thrusters are to be driven, and SciPy is not installed.
         """
         chosen = settings or read_settings("dp_controller", ControllerSettings)
         self.vehicle = vehicle
@@ -112,7 +119,7 @@ class DPController:
         self._mass_matrix = vehicle.mass_matrix
         self._inverse_mass_matrix = np.linalg.inv(self._mass_matrix)
         self._limits = vehicle.wrench_limits
-        self._actuated = np.flatnonzero(self._limits)
+        self._outlet = _outlet(actuation, vehicle)
         self._net_weight = vehicle.weight - vehicle.buoyant_force
         self._down_in_goal = LEVEL_DOWN
         self._integral_in_goal = np.zeros(6)
@@ -125,7 +132,7 @@ class DPController:
             InvalidInputError: the environment is of another task.
         """
         marine = _station_keeping(env)
-        return cls(marine.vehicle, marine.control_period, settings)
+        return cls(marine.vehicle, marine.control_period, settings, marine.scene.actuation)
 
     @property
     def integral_in_goal(self) -> Array:
@@ -149,12 +156,12 @@ class DPController:
                 self._down_in_goal = np.array(world_down_in_body(tuple(goal.tolist())))
 
     def act(self, observation: Observation) -> Action:
-        """Return the action of the actuated axes in [-1, 1], shape (n,), and advance the integral."""
+        """Return the action in [-1, 1], shape (n,), and advance the integral."""
         reading = read_observation(observation)
         wanted = self.wrench(reading)
-        given = np.clip(wanted, -self._limits, self._limits)
-        self._integrate(reading, given - wanted)
-        return (given[self._actuated] / self._limits[self._actuated]).astype(np.float32)
+        given = self._outlet.give(wanted, float(reading.velocity_body[0]))
+        self._integrate(reading, given.wrench_body - wanted)
+        return given.action.astype(np.float32)
 
     def wrench(self, reading: Reading) -> Array:
         """Return the wrench wanted now, beyond the limits if need be, shape (6,) [N, N m]."""
@@ -193,6 +200,13 @@ class DPController:
                 f"{fastest:.3g} 1/s times it must stay below 1; lower the bandwidth, or give a control period "
                 f"below {1.0 / fastest:.3g} s"
             )
+
+
+def _outlet(actuation: str, vehicle: Vehicle) -> Outlet:
+    """Return where wrenches go."""
+    if actuation not in OUTLETS:
+        raise InvalidInputError(f"actuation = {actuation!r} is unknown; give one of {list(OUTLETS)}")
+    return OUTLETS[actuation](vehicle)
 
 
 def _six(settings: ControllerSettings, field: str) -> Array:

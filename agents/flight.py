@@ -20,8 +20,6 @@ from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.envs.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
 
-AXIS_NAMES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-
 
 @dataclass(frozen=True)
 class FlightPlan:
@@ -87,9 +85,7 @@ def fly(
         if outputs.plot is not None:
             from dq_marine.agents.error_plot import save_plot
 
-            actuated = np.flatnonzero(marine(env).vehicle.wrench_limits)
-            names = [AXIS_NAMES[axis] for axis in actuated]
-            save_plot(episode, outputs.plot, axis_names=names, title=title)
+            save_plot(episode, outputs.plot, axis_names=marine(env).action_names, title=title)
     finally:
         env.close()
     return episode

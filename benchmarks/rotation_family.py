@@ -25,9 +25,10 @@ from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 from dq_marine.assembly import Assembly
+from dq_marine.damping_term import DampingTerm
 from dq_marine.engines.one_body import OneBody
 from dq_marine.errors import StepNotSolvableError
-from dq_marine.terms import DampingTerm, angular_first, uniform_water
+from dq_marine.terms import angular_first, uniform_water
 from dq_marine.vehicles import load_vehicle
 
 Array = NDArray[np.float64]

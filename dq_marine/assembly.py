@@ -9,7 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.actuators import ActuationTerm
+from dq_marine.damping_term import DampingTerm
 from dq_marine.errors import InvalidInputError
+from dq_marine.kernel.actuation import NO_ACTUATION
 from dq_marine.kernel.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.kernel.extrapolated import ExtrapolatedTiming, make_extrapolated
 from dq_marine.kernel.kick import Kick
@@ -18,7 +21,7 @@ from dq_marine.kernel.paper_drift import paper_drift, paper_rescue
 from dq_marine.kernel.richardson import RichardsonTiming, make_richardson
 from dq_marine.kernel.step import Advance, Composition, StepParameters
 from dq_marine.kernel.strang import make_strang
-from dq_marine.terms import DampingTerm, ForceTerm, WaterTerm, inertia_term, nested_parameters
+from dq_marine.terms import ForceTerm, WaterTerm, inertia_term, nested_parameters
 
 SCHEMES = {"midpoint": (midpoint_drift, midpoint_rescue), "paper": (paper_drift, paper_rescue)}
 """Schemes by name: the drift, and its rescue."""
@@ -52,6 +55,7 @@ class Assembly:
         water: still or moving.
         scheme: one of `SCHEMES`.
         order: one of `ORDERS`.
+        actuators: those that drive the body, if any.
     """
 
     mass_matrix: NDArray[np.float64]
@@ -60,6 +64,7 @@ class Assembly:
     water: WaterTerm
     scheme: str = "midpoint"
     order: int = 2
+    actuators: ActuationTerm | None = None
 
     def __post_init__(self) -> None:
         """Refuse schemes and orders that are not there, or cannot hold.
@@ -80,13 +85,13 @@ class Assembly:
     @property
     def terms(self) -> tuple[str, ...]:
         """Names of what the step computes besides inertia and the control wrench."""
-        names = [*(force.name for force in self.forces), self.damping.name, self.water.name]
+        names = [*(force.name for force in self._present(0.0)), *self.damping.names, self.water.name]
         return tuple(filter(None, names))
 
     @property
     def dissipation(self) -> str:
         """What takes energy, or may: damping and velocity forces; empty if nothing does."""
-        names = [self.damping.name, *(force.name for force in self._velocity_forces)]
+        names = [*self.damping.names, *(force.name for force in self._velocity_forces(0.0))]
         return ", ".join(filter(None, names))
 
     @property
@@ -95,12 +100,13 @@ class Assembly:
         drift, rescue = SCHEMES[self.scheme]
         return Composition(
             method=self._method.make,
-            pose_forces=tuple(force.compiled_form for force in self._pose_forces),
-            velocity_forces=tuple(force.compiled_form for force in self._velocity_forces),
+            pose_forces=tuple(force.compiled_form for force in self._pose_forces(0.0)),
+            velocity_forces=tuple(force.compiled_form for force in self._velocity_forces(0.0)),
             kick=self._method.kick,
             drift=drift,
             rescue=rescue,
             water=self.water.water,
+            actuation=NO_ACTUATION if self.actuators is None else self.actuators.actuation,
         )
 
     def parameters_at(self, step: float) -> StepParameters:
@@ -108,18 +114,23 @@ class Assembly:
         return StepParameters(
             inertia=inertia_term(self.mass_matrix),
             damping=self.damping.matrices,
-            forces=(nested_parameters(self._pose_forces), nested_parameters(self._velocity_forces)),
+            forces=(
+                nested_parameters(self._pose_forces(step)),
+                nested_parameters(self._velocity_forces(step)),
+            ),
             water=self.water.parameters,
             timing=self._method.timing(step),
         )
 
-    @property
-    def _pose_forces(self) -> tuple[ForceTerm, ...]:
-        return tuple(force for force in self.forces if not force.uses_velocity)
+    def _present(self, step: float) -> tuple[ForceTerm, ...]:
+        """Return all forces; that of the actuators comes first, where `kernel.actuated` finds it."""
+        return self.forces if self.actuators is None else (self.actuators.force_at(step), *self.forces)
 
-    @property
-    def _velocity_forces(self) -> tuple[ForceTerm, ...]:
-        return tuple(force for force in self.forces if force.uses_velocity)
+    def _pose_forces(self, step: float) -> tuple[ForceTerm, ...]:
+        return tuple(force for force in self._present(step) if not force.uses_velocity)
+
+    def _velocity_forces(self, step: float) -> tuple[ForceTerm, ...]:
+        return tuple(force for force in self._present(step) if force.uses_velocity)
 
     @property
     def _method(self) -> Method:
@@ -131,7 +142,7 @@ class Assembly:
             return Method(
                 make_composed, damping.kick, lambda h: ComposedTiming(tuple(h * stage for stage in stages))
             )
-        if self._velocity_forces:
+        if self._velocity_forces(0.0):
             return Method(
                 make_extrapolated,
                 damping.kick,

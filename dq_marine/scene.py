@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.actuators import ACTUATIONS, actuation_term
 from dq_marine.assembly import Assembly
 from dq_marine.checks import finite_number
 from dq_marine.currents import CurrentLike, GaussMarkovCurrent, UniformCurrent, current_of, plain
+from dq_marine.damping_term import vehicle_damping
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.dual_quaternion import pose_from_parts
 from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import Composition, StepParameters
-from dq_marine.terms import DampingTerm, ForceTerm, restoring_terms
+from dq_marine.restoring_terms import checked_hydrostatics, hydrostatic_terms, natural_frequencies
+from dq_marine.terms import ForceTerm
 from dq_marine.vehicles import Vehicle, load_vehicle
-from dq_marine.vehicles.restoring import restoring_frequencies
 
 if TYPE_CHECKING:
     from dq_marine.engines.batch import Batch
@@ -26,9 +28,6 @@ if TYPE_CHECKING:
 
 KICKS = ("l_stable", "implicit_node")
 """How damping is taken in, by name."""
-
-NEUTRAL_TOLERANCE = 1e-9
-"""Net weight over weight, and righting arm over the vehicle's length, below which a term counts as absent."""
 
 
 class Scene:
@@ -42,7 +41,9 @@ class Scene:
         current: uniform and steady, or one that varies.
         step: step size h [s].
         kick: how damping is taken in.
+        hydrostatics: how buoyancy is computed.
         forces: of the user's own.
+        actuation: what drives the vehicle.
     """
 
     def __init__(
@@ -54,7 +55,9 @@ class Scene:
         step: float = 0.02,
         order: int = 2,
         kick: str = "l_stable",
+        hydrostatics: str = "linear",
         forces: Sequence[ForceTerm] = (),
+        actuation: str = "wrench",
     ) -> None:
         """Check and compose the scene.
 
@@ -66,10 +69,16 @@ class Scene:
             step: step size h [s]; negative runs time backwards, in a scene that takes no energy.
             order: of the method: 2 or 4, and 6 or 8 in a scene that takes no energy.
             kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
+            hydrostatics: "linear": of a vessel that floats, its waterplane's restoring force for small motions, and of
+                any other, weight and buoyancy under water; or "hull": buoyancy of the boxes of its hull at any depth
+                and attitude, so that it may capsize, dive or leave the water.
             forces: of your own, see `dq_marine.terms.ForceTerm`.
+            actuation: "wrench", a force and moment on the body; or "thrusters", the vehicle's thrusters, azimuths and
+                fins, with their limits and lags: see `ActuatedBody.actuate`.
 
         Raises:
-            InvalidInputError: a value is wrong, or the step is too large for the vehicle's restoring forces.
+            InvalidInputError: a value is wrong, the step is too large for the vehicle's restoring forces, or the
+                vehicle has no actuators whose forces are known.
             VehicleFileError: the vehicle file is wrong.
         """
         self.vehicle = load_vehicle(vehicle)
@@ -78,15 +87,18 @@ class Scene:
         if kick not in KICKS:
             raise InvalidInputError(f"kick = {kick!r} is unknown; give one of {list(KICKS)}")
         self.kick = kick
+        self.hydrostatics = checked_hydrostatics(hydrostatics, self.vehicle)
+        if actuation not in ACTUATIONS:
+            raise InvalidInputError(f"actuation = {actuation!r} is unknown; give one of {list(ACTUATIONS)}")
+        self.actuation = actuation
         self.forces = checked_forces(forces)
         self._check_restoring_step()
         mass_matrix = self.vehicle.mass_matrix
-        damping = DampingTerm(
-            self.vehicle.linear_damping, self.vehicle.quadratic_damping, mass_matrix, kick == "l_stable"
-        )
-        present = (*self._restoring_terms(), *self.forces)
+        damping = vehicle_damping(self.vehicle, l_stable=kick == "l_stable")
+        present = (*hydrostatic_terms(self.vehicle, self.hydrostatics), *self.forces)
+        actuators = actuation_term(self.vehicle) if actuation == "thrusters" else None
         water = self.current.term(self.vehicle)
-        self._assembly = Assembly(mass_matrix, present, damping, water, scheme, order)
+        self._assembly = Assembly(mass_matrix, present, damping, water, scheme, order, actuators=actuators)
         self._check_direction_of_time()
 
     def __repr__(self) -> str:
@@ -94,7 +106,8 @@ class Scene:
         terms = ", ".join(self.terms) or "nothing"
         return (
             f"Scene({self.vehicle.name!r}, current={current}, scheme={self.scheme!r}, step={self.step:g}, "
-            f"order={self.order}, kick={self.kick!r}; computes {terms})"
+            f"order={self.order}, kick={self.kick!r}, hydrostatics={self.hydrostatics!r}, "
+            f"actuation={self.actuation!r}; computes {terms})"
         )
 
     def __reduce__(self) -> Any:
@@ -106,7 +119,9 @@ class Scene:
             "step": self.step,
             "order": self.order,
             "kick": self.kick,
+            "hydrostatics": self.hydrostatics,
             "forces": self.forces,
+            "actuation": self.actuation,
         }
         return _rebuild, (arguments,)
 
@@ -144,10 +159,13 @@ class Scene:
         return self._assembly.parameters_at(step)
 
     def stepper(self) -> OneBody:
-        """Return a body at rest at the world's origin, with the step compiled for this scene."""
-        from dq_marine.engines.one_body import OneBody  # here: it imports Numba
+        """Return a body at rest at the world's origin, with the step compiled for this scene.
 
-        return OneBody(self.composition, self.parameters_at, self.step)
+        With `actuation="thrusters"` it is an `ActuatedBody`, whose actuators are at rest, too.
+        """
+        from dq_marine.engines.actuated_body import body_of  # here: it imports Numba
+
+        return body_of(self.composition, self.parameters_at, self.step)
 
     def batch(
         self,
@@ -175,19 +193,10 @@ class Scene:
     def restoring_frequencies(self) -> NDArray[np.float64]:
         """Undamped natural angular frequencies [rad/s] about the stable upright or inverted attitude, shape (2,).
 
-        Eigenfrequencies of roll and pitch with the other axes free to follow, from the full M.
+        Eigenfrequencies of roll and pitch with the other axes free to follow, from the full M. Shape (3,), heave
+        included, of a vessel that floats.
         """
-        return restoring_frequencies(self.vehicle)
-
-    def _restoring_terms(self) -> tuple[ForceTerm, ...]:
-        """Return the restoring forces, without those that are zero but for round-off."""
-        vehicle = self.vehicle
-        excess, arm = vehicle.weight - vehicle.buoyant_force, vehicle.restoring_arm
-        if abs(excess) <= NEUTRAL_TOLERANCE * vehicle.weight:
-            excess = 0.0
-        if np.abs(arm).max() <= NEUTRAL_TOLERANCE * vehicle.weight * vehicle.dimensions.length:
-            arm = np.zeros(3)
-        return restoring_terms(excess, arm)
+        return natural_frequencies(self.vehicle, self.hydrostatics)
 
     def _check_direction_of_time(self) -> None:
         if self.step == 0.0:
@@ -199,13 +208,18 @@ class Scene:
                 f"step = {self.step:g} s, but there is {self._assembly.dissipation}, which cannot be undone; give a "
                 "positive step, or leave it out"
             )
+        if self.step < 0.0 and self.actuation != "wrench":
+            raise InvalidInputError(
+                f"step = {self.step:g} s, but the lags of actuators cannot be undone; give a positive step, or "
+                'actuation="wrench"'
+            )
 
     def _check_restoring_step(self) -> None:
-        """The restoring moment is explicit at the node: stable for h omega < 2."""
+        """Restoring forces are explicit at the node: stable for h omega < 2."""
         fastest = float(self.restoring_frequencies.max())
         if abs(self.step) * fastest >= 2.0:
             raise InvalidInputError(
-                f"step = {self.step:g} s is too large for the restoring moment: h omega = "
+                f"step = {self.step:g} s is too large for the restoring forces: h omega = "
                 f"{self.step * fastest:.3g} with omega = {fastest:.3g} rad/s must stay below 2; give a step "
                 f"below {2.0 / fastest:.3g} s (0.1 of it for accuracy)"
             )
@@ -233,7 +247,7 @@ def batch_of(
     Raises:
         InvalidInputError: the scenes differ in their terms or step, a value is wrong, or a current changes with time.
     """
-    from dq_marine.engines.batch import Batch  # here: it imports Numba
+    from dq_marine.engines.actuated_batch import batch_type  # here: it imports Numba
 
     if not scenes or (size is not None and len(scenes) not in (1, size)):
         raise InvalidInputError(f"{len(scenes)} scenes for {size} bodies; give one, or one for each body")
@@ -248,7 +262,7 @@ def batch_of(
             "the scenes of a batch differ in what they compute, or in their step; give scenes of equal terms, "
             "scheme, order, kick and step (a term that is zero is left out: give it a tiny value)"
         )
-    return Batch(
+    return batch_type(first.composition)(
         first.composition,
         [scene.parameters_at(scene.step) for scene in scenes],
         first.step,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from rich.box import SIMPLE
 from rich.table import Table
 from rich.text import Text
 
+from dq_marine.randomisation import Spread
 from dq_marine.vehicles import Sheet, Vehicle, vehicle_sheet
 from dq_marine.vehicles.model import MOTIONS
 
@@ -60,6 +61,19 @@ def sheet_table(sheet: Sheet) -> Table:
     return table
 
 
+def spread_table(title: str, spreads: Sequence[Spread]) -> Table:
+    """Return how far drawn vehicles spread, a row for each number."""
+    table = Table(title=Text(title), box=SIMPLE, pad_edge=False)
+    table.add_column("")
+    for heading in ("nominal", "least", "mean", "largest"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("unit", no_wrap=True)
+    for spread in spreads:
+        values = (spread.nominal, spread.least, spread.mean, spread.largest)
+        table.add_row(spread.name, *(_number(value) for value in values), Text(spread.unit))
+    return table
+
+
 def _masses(sheet: Sheet) -> list[tuple[str, str]]:
     coupled = f", {' and '.join(sheet.coupled)}" if sheet.coupled else ""
     conditions = f"{sheet.condition_number:.4g}, {sheet.unit_free_condition_number:.3g}"
@@ -82,7 +96,10 @@ def _masses(sheet: Sheet) -> list[tuple[str, str]]:
 
 
 def _motions(sheet: Sheet) -> list[tuple[str, str]]:
+    floats = math.isfinite(sheet.heave_period)
+    heave = [("natural period of heave", f"{_number(sheet.heave_period)} s")] if floats else []
     return [
+        *heave,
         ("natural period of roll, pitch", f"{_number(sheet.roll_period)} s, {_number(sheet.pitch_period)} s"),
         *((f"terminal speed in {motion}", _terminal(sheet, motion)) for motion in MOTIONS),
     ]
@@ -92,7 +109,7 @@ def _steps(sheet: Sheet) -> list[tuple[str, str]]:
     ahead = f"at {sheet.speed:g} m/s ahead"
     return [
         (f"Munk growth rate {ahead}, undamped", f"{_number(sheet.munk_growth_rate)} 1/s"),
-        ("largest step for the righting moment", f"{_number(sheet.restoring_step)} s"),
+        ("largest step for the restoring forces", f"{_number(sheet.restoring_step)} s"),
         (f"largest step for translation {ahead}", f"{_number(sheet.translation_step)} s"),
         ("largest step: a tenth of it is accurate", f"{_number(sheet.largest_step)} s"),
     ]

@@ -47,7 +47,7 @@ def drawn_current(current: EnvironmentCurrent) -> tuple[CurrentLike, CurrentDraw
     return (speed, 0.0, 0.0), CurrentDraw((0.0, 0.0, 0.0), speed)
 
 
-def parameters_of(scene: Scene, period: float) -> StepParameters:
+def numbers_of(scene: Scene, period: float) -> StepParameters:
     """Return the numbers of the scene's step, with a current that changes by itself in control periods [s]."""
     parameters = scene.parameters_at(scene.step)
     if not isinstance(scene.current, GaussMarkovCurrent):
@@ -69,14 +69,14 @@ def current_met(scene: Scene, like: StepParameters, episode: Episode) -> NDArray
     return np.array(scene.composition.water.velocity(water, episode.body.pose))
 
 
-def check_current(chosen: dict[str, NDArray[np.float64]], scene: Scene) -> None:
-    """Refuse a current among the options of `reset` that the environment cannot have.
+def check_current(chosen: dict[str, NDArray[np.float64]], scene: Scene) -> dict[str, NDArray[np.float64]]:
+    """Return the options of `reset`, unless there is a current among them that the environment cannot have.
 
     Raises:
         InvalidInputError: it has none, or a profile.
     """
     if "current" not in chosen:
-        return
+        return chosen
     current = chosen["current"]
     if isinstance(scene.current, CurrentProfile):
         raise InvalidInputError(
@@ -88,3 +88,4 @@ def check_current(chosen: dict[str, NDArray[np.float64]], scene: Scene) -> None:
             f"options['current'] = {current.tolist()}, but the environment was made without a current; make "
             "it with current=<largest speed>"
         )
+    return chosen

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -14,6 +15,9 @@ from dq_marine.engines.packing import unpack
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.body import BodyState
 
+COUNTS = ("periods", "vehicle")
+"""Entries of an episode that are whole numbers."""
+
 
 @dataclass
 class Episode:
@@ -24,11 +28,12 @@ class Episode:
         aim: the task's parameters, packed.
         state: pose and momentum, shape (14,).
         memory: the task's memory, packed.
-        action: of the last control period, six axes, normalised.
+        action: of the last control period as the kernel takes it, normalised: of six axes, or of all channels.
         observation: at its end.
         measures: at its end, as the task names them.
         current_ned: of the water [m/s], shape (3,).
         periods: control periods since reset.
+        vehicle: number of the vehicle in the environment's pool; 0 without one.
     """
 
     parameters: NDArray[np.float64]
@@ -40,6 +45,7 @@ class Episode:
     measures: NDArray[np.float64]
     current_ned: NDArray[np.float64]
     periods: int = 0
+    vehicle: int = 0
 
     @property
     def body(self) -> BodyState:
@@ -49,7 +55,7 @@ class Episode:
     def to_dict(self) -> dict[str, Any]:
         """Return copies of everything."""
         values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {name: value if name == "periods" else value.copy() for name, value in values.items()}
+        return {name: value if name in COUNTS else value.copy() for name, value in values.items()}
 
     def restored(self, saved: dict[str, Any]) -> Episode:
         """Return the episode saved by `to_dict`, whose arrays must have the sizes of this one's.
@@ -60,10 +66,24 @@ class Episode:
         own = self.to_dict()
         if set(saved) != set(own):
             raise InvalidInputError(f"the state has entries {sorted(saved)}; it needs {sorted(own)}")
-        periods = int(saved["periods"])
+        periods, vehicle = (int(saved[name]) for name in COUNTS)
         arrays = {
             name: finite_array(f"state[{name!r}]", saved[name], value.size).astype(value.dtype)
             for name, value in own.items()
-            if name != "periods"
+            if name not in COUNTS
         }
-        return Episode(**arrays, periods=periods)
+        return Episode(**arrays, periods=periods, vehicle=vehicle)
+
+
+def restored_generator(saved: Any) -> np.random.Generator:
+    """Return a generator at the state of a saved one.
+
+    Raises:
+        InvalidInputError: it is no such state.
+    """
+    random = np.random.default_rng()
+    try:
+        random.bit_generator.state = copy.deepcopy(saved)
+    except (TypeError, ValueError, KeyError) as error:
+        raise InvalidInputError(f"state['random'] is not a generator's state: {error}") from error
+    return random

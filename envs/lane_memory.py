@@ -48,8 +48,11 @@ class LaneMemory:
         parameters = [single.base_parameters for single in singles]
         aims = [single.new_aim({}) for single in singles]
         memory = first.task.forget(aims[0])
-        own_parameters = {"water", *differing_fields(parameters)}
+        pool = first.pool
+        own_parameters = {"water", *differing_fields(parameters), *differing_fields(pool.parameters)}
         own_aims = {*first.task.episode_fields, *differing_fields(aims)}
+        if pool.has_choice:
+            own_aims.update(pool.aim_fields)
         self.layout = PeriodLayout(
             lanes,
             packing_of(parameters[0], lanes, lambda path: len(path) == 1 and path[0] not in own_parameters),
@@ -57,11 +60,13 @@ class LaneMemory:
             packing_of(AT_REST, lanes, lambda path: False),
             packing_of(memory, lanes, lambda path: False),
             packing_of(OUTCOME, lanes, lambda path: False),
+            pool.layout,
         )
         self.bodies = -(-n // lanes.width) * lanes.width
         self.arrays = self._arrays(first)
         self._like_parameters = parameters[0]
         self._water_velocity = first.scene.composition.water.velocity
+        self._action_size = first.action_size
         self.fill(self.layout.parameters, self.arrays.shared, self.arrays.parameters, parameters)
         self._own_aims = frozenset(own_aims)
         self.set_default_aims(aims)
@@ -118,11 +123,12 @@ class LaneMemory:
             aim=self._read(layout.aim, arrays.shared_aim, arrays.aims, index),
             state=state,
             memory=self._read(layout.memory, arrays.shared, arrays.memories, index),
-            action=np.zeros(6),
+            action=np.zeros(self._action_size),
             observation=arrays.observations[index].copy(),
             measures=arrays.measures[:, index].copy(),
             current_ned=np.array(self._water_velocity(water, unpack(AT_REST, state).pose)),
             periods=int(arrays.periods[index]),
+            vehicle=int(arrays.vehicles[index]),
         )
 
     def set_episode(self, index: int, episode: Episode) -> None:
@@ -135,6 +141,7 @@ class LaneMemory:
         arrays.observations[index] = episode.observation
         arrays.measures[:, index] = episode.measures
         arrays.periods[index] = episode.periods
+        arrays.vehicles[index] = episode.vehicle
 
     def outcome(self, field: int) -> NDArray[Any]:
         """Return one field of the last period's outcomes, shape (n,)."""
@@ -154,6 +161,8 @@ class LaneMemory:
             memories=empty_blocks(layout.memory, self.n, lanes),
             outcomes=empty_blocks(layout.outcome, self.n, lanes),
             generators=np.zeros((bodies, STATE_WORDS), np.uint64),
+            pool=single.pool.rows,
+            vehicles=np.zeros(bodies),
             currents=pack(single.current_draw),
             chosen=np.full((bodies, CHOSEN_COLUMNS), np.nan),
             drawn_currents=np.zeros((bodies, 3)),

@@ -25,7 +25,8 @@ class LaneSingles:
         first: the single environment that stands for all, or for the first.
         memory: of all.
         seeds: of the environments, None where there was none yet.
-        commands: actions of the last control period, six axes, shape (n, 6), not saturated.
+        commands: actions of the last control period as the kernel takes them, shape (n, `MarineEnv.action_size`), not
+            saturated.
         rescued: substeps that plain Newton did not solve, so far, shape (n,).
     """
 
@@ -37,7 +38,7 @@ class LaneSingles:
         self.first = singles[0]
         self.memory = LaneMemory(singles, n, lanes)
         self.seeds: list[int | None] = [None] * n
-        self.commands = np.zeros((n, 6))
+        self.commands = np.zeros((n, self.first.action_size))
         self.rescued = np.zeros(n, np.int64)
 
     def seed(self, seeds: Sequence[int | None], wanted: Sequence[int]) -> None:
@@ -141,6 +142,10 @@ def made_singles(
         )
     if not isinstance(vehicle, list | tuple):
         return [single_class(vehicle, **arguments)]
+    if arguments.get("randomise") is not None:
+        raise InvalidInputError(
+            "a list of vehicles and randomise both say what each environment flies; give one of them"
+        )
     if len(vehicle) != n:
         raise InvalidInputError(f"{len(vehicle)} vehicles for {n} environments; give one for each")
     singles = [single_class(one, **arguments) for one in vehicle]
@@ -149,7 +154,12 @@ def made_singles(
         same_terms = single.scene.composition == first.scene.composition
         if not same_terms or single.action_space != first.action_space:
             raise InvalidInputError(
-                f"vehicle[{index}] has terms {list(single.scene.terms)} and axes {single.actuated_axes}, vehicle[0] "
-                f"{list(first.scene.terms)} and {first.actuated_axes}; they must not differ"
+                f"vehicle[{index}] has terms {list(single.scene.terms)} and actions {single.action_names}, vehicle[0] "
+                f"{list(first.scene.terms)} and {first.action_names}; they must not differ"
+            )
+        if single.observation_space != first.observation_space:
+            raise InvalidInputError(
+                f"vehicle[{index}] and vehicle[0] differ in what bounds their observations, as their lengths do; give "
+                "all the same workspace_radius"
             )
     return singles

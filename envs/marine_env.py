@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import copy
-import math
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from functools import partial
 from typing import Any, ClassVar
 
 import gymnasium as gym
@@ -16,27 +16,24 @@ from numpy.typing import NDArray
 
 from dq_marine.checks import finite_number, positive_integer
 from dq_marine.engines.control_period import ACTION_NOT_FINITE, compiled_control_period
-from dq_marine.engines.one_body import REFUSALS
 from dq_marine.engines.packing import pack, structure_type, unpack
-from dq_marine.envs.currents import (
-    EnvironmentCurrent,
-    check_current,
-    current_met,
-    drawn_current,
-    parameters_of,
-)
-from dq_marine.envs.episode import Episode
+from dq_marine.envs.beginning import begun_episode
+from dq_marine.envs.currents import EnvironmentCurrent, check_current, current_met, drawn_current, numbers_of
+from dq_marine.envs.drive import commanded, drive_of
+from dq_marine.envs.episode import Episode, restored_generator
+from dq_marine.envs.refusal import integration_report
 from dq_marine.envs.start import as_chosen, at_origin, checked_options, drawn_uniforms
+from dq_marine.envs.vehicle_pool import FIXED_VEHICLE, VehicleDraw, prepared_pool
 from dq_marine.envs.view import EpisodeView
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.beginning import Drawn, beginning_draws, make_beginning, make_draw
+from dq_marine.kernel.beginning import Drawn, beginning_draws, make_draw
 from dq_marine.kernel.body import Motion
 from dq_marine.kernel.spatial import to_fossen
-from dq_marine.kernel.step import ACCEPTED, make_motion
+from dq_marine.kernel.step import ACCEPTED, StepParameters, make_motion
 from dq_marine.kernel.task import Task, draws_of_period
 from dq_marine.kernel.vector3 import dot
 from dq_marine.scene import Scene
-from dq_marine.vehicles import Vehicle
+from dq_marine.vehicles import Vehicle, load_vehicle
 from dq_marine.viewer.snapshot import Snapshot
 
 MOST_SUBSTEPS = 10_000
@@ -47,19 +44,23 @@ Action = NDArray[np.float32]
 
 
 class MarineEnv(gym.Env[Observation, Action], ABC):
-    """One vehicle in a current, driven by body thrust and torque.
+    """One vehicle in a current, driven by body thrust and torque, or by its thrusters.
 
     A task derives from it, names its kernel functions in `task` and says how goals and starts are drawn.
 
     Attributes:
         vehicle: the validated vehicle.
-        scene: what is integrated, with the largest current that may be drawn.
+        pool: the vehicles that episodes fly: that one, or those drawn from it.
+        scene: what is integrated, with the largest current that may be drawn and the pool's first vehicle.
+        task: the formulas of the task, for what drives the vehicle.
+        drive: what an action does.
         control_period: time between actions [s].
         substeps: integrator steps in a control period.
         substeps_rescued: of all taken so far, those that plain Newton did not solve (see `kernel.drift`).
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["human", "rgb_array"], "render_fps": 10}  # type: ignore[misc]
+    task: Task
 
     def __init__(
         self,
@@ -69,18 +70,27 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         control_period: float,
         substeps: int,
         scheme: str,
+        actuation: str,
         render_mode: str | None,
         record: bool,
+        vehicle_draw: VehicleDraw = FIXED_VEHICLE,
     ) -> None:
         """Check and compose; see the tasks for the arguments."""
         self.control_period = finite_number("control_period", control_period, above=0.0)
         self.substeps = positive_integer("substeps", substeps)
         if self.substeps > MOST_SUBSTEPS:
             raise InvalidInputError(f"substeps = {self.substeps}; give at most {MOST_SUBSTEPS}")
+        self.vehicle = load_vehicle(vehicle)
         wanted, self.current_draw = drawn_current(current)
         self.current_speed = self.current_draw.speed
-        self.scene = Scene(vehicle, current=wanted, scheme=scheme, step=self.control_period / self.substeps)
-        self.vehicle = self.scene.vehicle
+        step = self.control_period / self.substeps
+        scene_of = partial(Scene, current=wanted, scheme=scheme, step=step, actuation=actuation)
+        numbers = partial(numbers_of, period=self.control_period)
+        vehicles = vehicle_draw.vehicles(self.vehicle)
+        self.pool = prepared_pool(vehicles, scene_of, numbers, self.vehicle_aim)
+        self.scene = self.pool.scene
+        self.drive = drive_of(self.scene)
+        self.task = self.drive.task(self.own_task())
         modes = self.metadata["render_modes"]
         if render_mode is not None and render_mode not in modes:
             raise InvalidInputError(f"render_mode = {render_mode!r}; give None or one of {modes}")
@@ -88,11 +98,10 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.record = bool(record)
         self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]
 
-        self._axes = np.flatnonzero(self.vehicle.wrench_limits)
         bound = self.observation_bound
-        self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self._axes),), np.float32)
+        self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self.drive.places),), np.float32)
         self.observation_space = gym.spaces.Box(-bound, bound, dtype=np.float32)
-        self.base_parameters = parameters_of(self.scene, self.control_period)
+        self.base_parameters = self.pool.parameters[0]
         self._period_draws = len(pack(draws_of_period(self.scene.composition, self.task)))
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
@@ -102,10 +111,9 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
 
     # What a task adds
 
-    @property
     @abstractmethod
-    def task(self) -> Task:
-        """Its formulas."""
+    def own_task(self) -> Task:
+        """Return the task's formulas, whatever drives the vehicle."""
 
     @property
     @abstractmethod
@@ -115,6 +123,10 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     @abstractmethod
     def new_aim(self, options: dict[str, Any]) -> Any:
         """Return the task's parameters for an episode."""
+
+    def vehicle_aim(self, vehicle: Vehicle) -> dict[str, Any]:
+        """Return those of the task's parameters that are a vehicle's, by name: the same names for every vehicle."""
+        return {"wrench_limits": tuple(vehicle.wrench_limits.tolist())}
 
     @abstractmethod
     def goal_pose(self, aim: Any) -> tuple[Any, Any] | None:
@@ -136,7 +148,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             options: what not to draw: any of `START_OPTIONS`, in NED and SI units.
 
         Returns:
-            The observation, and info with the task's measures, `is_success` and `current_ned`.
+            The observation, and info with the task's measures, `is_success`, `current_ned` and, where there is a
+            choice, `vehicle`: its number in the pool.
 
         Raises:
             InvalidInputError: an option is unknown or wrong; the episode in progress is untouched.
@@ -144,17 +157,21 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         super().reset(seed=seed)
         chosen = self.checked_options(options)
         aim = self.new_aim(chosen)
+        number = self.pool.drawn(self.np_random)
+        aim = self.pool.fitted(aim, number)
         uniforms = self.np_random.random(beginning_draws(self.task))
         drawn = make_draw(self.scene.composition, self.task)(aim, self.current_draw, tuple(uniforms.tolist()))
-        self._episode = self._new_episode(aim, as_chosen(drawn, chosen))
+        self._episode = self._new_episode(aim, as_chosen(drawn, chosen), number)
         self._view.begin(self)
-        return self.observation, self._info() | {"current_ned": self._episode.current_ned.copy()}
+        begun = {"vehicle": number} if self.pool.has_choice else {}
+        return self.observation, self._info() | {"current_ned": self._episode.current_ned.copy()} | begun
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
 
         Args:
-            action: thrust and torque of the actuated axes over their limits; saturates beyond [-1, 1].
+            action: thrust and torque of the actuated axes, or commands of the channels, over their limits;
+                saturates beyond [-1, 1].
 
         Returns:
             Observation, reward, terminated, truncated (False: `gym.make` adds the time limit), info.
@@ -164,7 +181,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             ResetNeeded: before the first reset.
         """
         episode = self._running("step")
-        command = self._command(action)
+        command = commanded(self.drive, action)
         uniforms = drawn_uniforms(self.np_random, self._period_draws, command)
         status, completed, rescued, residual_squared, reward, terminated = self._compiled(
             episode.parameters,
@@ -190,7 +207,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         if status != ACCEPTED:
             velocity = self.motion.velocity
             spin, speed = dot(velocity.angular, velocity.angular), dot(velocity.linear, velocity.linear)
-            info["integration"] = self.integration_report(status, completed, residual_squared, spin, speed)
+            report = (self.scene.step, status, completed, residual_squared, spin, speed)
+            info["integration"] = integration_report(*report)
         if self._view.wants_frames:
             self._view.show(self)
         return episode.observation.copy(), reward, terminated != 0.0, False, info
@@ -235,8 +253,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     @property
     def motion(self) -> Motion:
         """Position, attitude and velocity over ground now."""
-        parameters = unpack(self.base_parameters, self._running("motion").parameters)
-        return self._motion(parameters, self.episode.body)
+        return self._motion(self._parameters, self._running("motion").body)
 
     @property
     def time(self) -> float:
@@ -277,11 +294,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             raise InvalidInputError("the state is not what get_state() returned: it has no entry 'random'")
         template = self._new_episode(self.new_aim({}), at_origin(self.task.sensing.first_draws))
         episode = template.restored({name: value for name, value in state.items() if name != "random"})
-        random = np.random.default_rng()
-        try:
-            random.bit_generator.state = copy.deepcopy(state["random"])
-        except (TypeError, ValueError, KeyError) as error:
-            raise InvalidInputError(f"state['random'] is not a generator's state: {error}") from error
+        self.pool.check_number(episode.vehicle)
+        random = restored_generator(state["random"])
         self.adopt(episode, random)
         self._view.begin(self)
 
@@ -301,21 +315,24 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         return self._running("the episode")
 
     @property
-    def actuated_axes(self) -> NDArray[np.intp]:
-        """Indices of the axes that an action drives, among surge, sway, heave, roll, pitch, yaw."""
-        return self._axes
+    def flown_vehicle(self) -> Vehicle:
+        """The one of the pool that the episode in progress flies."""
+        return self.pool.vehicles[self.episode.vehicle]
 
-    def integration_report(
-        self, status: int, completed: int, residual_squared: float, spin_squared: float, speed_squared: float
-    ) -> dict[str, Any]:
-        """Return `info["integration"]`: why the integrator refused, and with which velocity over ground."""
-        return {
-            "refused": REFUSALS[status],
-            "residual": math.sqrt(residual_squared) if math.isfinite(residual_squared) else None,
-            "completed_substeps": completed,
-            "step_times_spin": self.scene.step * math.sqrt(spin_squared),
-            "step_times_speed": self.scene.step * math.sqrt(speed_squared),
-        }
+    @property
+    def action_names(self) -> tuple[str, ...]:
+        """What each number of an action drives: axes such as "surge", or channels of the vehicle's actuators."""
+        return self.drive.names
+
+    @property
+    def action_places(self) -> NDArray[np.intp]:
+        """Where the numbers of an action stand among the `action_size` that the kernel takes."""
+        return self.drive.places
+
+    @property
+    def action_size(self) -> int:
+        """How many numbers the kernel takes: six axes, or all channels."""
+        return self.drive.size
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what cannot travel: compiled code and open windows."""
@@ -324,6 +341,8 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Compile again (from the cache on disk) and start without a window."""
         self.__dict__.update(state)
+        self.drive = drive_of(self.scene)
+        self.task = self.drive.task(self.own_task())
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
         self._view = EpisodeView(self)
@@ -336,7 +355,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             time=self.time,
             position_ned=np.array(motion.position_ned),
             quaternion_body_to_ned=np.array(motion.attitude),
-            wrench_body=episode.action * self.vehicle.wrench_limits,
+            wrench_body=self.drive.wrench_body(self.flown_vehicle, self._parameters, episode),
             current_ned=episode.current_ned,
             goal_position_ned=None if goal is None else np.array(goal[0]),
             goal_quaternion_body_to_ned=None if goal is None else np.array(goal[1]),
@@ -358,43 +377,23 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             raise ResetNeeded(f"{what} was asked for before reset(); call reset() first")
         return self._episode
 
-    def _new_episode(self, aim: Any, drawn: Drawn) -> Episode:
-        """Return an episode at its start, by the same formulas that run compiled."""
-        begun = make_beginning(self.scene.composition, self.task)(self.base_parameters, aim, drawn)
-        current = self.scene.composition.water.velocity(begun.water, begun.state.pose)
-        return Episode(
-            parameters=pack(self.base_parameters._replace(water=begun.water)),
-            aim=pack(aim),
-            state=pack(begun.state),
-            memory=pack(begun.memory),
-            action=np.zeros(6),
-            observation=pack(begun.observation).astype(np.float32),
-            measures=pack(begun.measures),
-            current_ned=np.array(current),
-        )
-
-    def _command(self, action: Action) -> NDArray[np.float64]:
-        """Return the action of all six axes, not saturated yet: the compiled code does that."""
-        try:
-            given = np.asarray(action, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InvalidInputError(f"action = {action!r} is not numeric") from error
-        if given.shape != self.action_space.shape:
-            raise InvalidInputError(f"action has shape {given.shape}; give shape {self.action_space.shape}")
-        command = np.zeros(6)
-        command[self._axes] = given
-        return command
+    def _new_episode(self, aim: Any, drawn: Drawn, number: int = 0) -> Episode:
+        parts = (self.scene.composition, self.task, self.pool.parameters[number], aim, drawn)
+        return begun_episode(*parts, number, self.drive.size)
 
     def _info(self) -> dict[str, Any]:
         numbers = self._running("info").measures.tolist()
         measures = dict(zip(self.task.measure_names, numbers, strict=True))
         return measures | {"is_success": self.succeeds(measures)}
 
+    @property
+    def _parameters(self) -> StepParameters:
+        """The numbers of the step of the episode in progress, its water included."""
+        return unpack(self.base_parameters, self._running("the parameters").parameters)  # type: ignore[no-any-return]
+
     def checked_options(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
         """Return reset's options as arrays."""
-        chosen = checked_options(options)
-        check_current(chosen, self.scene)
-        return chosen
+        return check_current(checked_options(options), self.scene)
 
 
-_NOT_CARRIED = ("_compiled", "_motion", "_view")
+_NOT_CARRIED = ("_compiled", "_motion", "_view", "drive", "task")

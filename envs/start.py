@@ -49,6 +49,9 @@ def drawn_uniforms(
 def checked_options(options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
     """Return `reset`'s options as arrays.
 
+    Args:
+        options: as they came.
+
     Raises:
         InvalidInputError: a key is unknown or a value wrong.
     """

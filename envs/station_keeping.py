@@ -19,16 +19,28 @@ from dq_marine.envs.currents import EnvironmentCurrent
 from dq_marine.envs.marine_env import MarineEnv
 from dq_marine.envs.station_keeping_task import INTEGRAL_BOUND, SPEED_BOUND, TASK, Aim, Weights
 from dq_marine.envs.vector_env import DQMarineVectorEnv
+from dq_marine.envs.vehicle_pool import RandomisationChoice, VehicleDraw
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.quaternion import Quaternion
 from dq_marine.kernel.sensing import with_sensors
 from dq_marine.kernel.task import Task
 from dq_marine.kernel.vector3 import Vector3
+from dq_marine.randomisation import Randomisation
 from dq_marine.sensors import Sensors, nested_numbers, sensors_of, shown_bounds
-from dq_marine.vehicles import Vehicle
+from dq_marine.vehicles import Vehicle, load_vehicle
 
 LARGEST_WORKSPACE = 1e4
 """Largest radius of the workspace [m]."""
+
+LONG_VEHICLE = 1.5
+"""Length [m] up to which radii that are not given are those below; beyond it they grow with the length."""
+
+START_RADIUS = 2.0
+WORKSPACE_RADIUS = 6.0
+"""Of vehicles that are not long [m]."""
+
+GOAL_DEPTH = 5.0
+"""Of vehicles that do not float, where no goal is given [m]."""
 
 SUCCESS_POSITION = 0.1
 """On station: distance to the goal [m] below which, with `SUCCESS_ATTITUDE`, `is_success` is True."""
@@ -78,7 +90,8 @@ class StationKeepingEnv(MarineEnv):
     """Reach a goal pose and hold it in an unseen current.
 
     Action: Box(-1, 1, (n,)), the thrust and torque of the n actuated axes, in the order surge, sway, heave, roll,
-    pitch, yaw, over the vehicle's limits. Beyond the box it saturates.
+    pitch, yaw, over the vehicle's limits; or with `actuation="thrusters"` the commands of the n channels of its
+    actuators in the order of `Vehicle.channels`, each over its limit on that side. Beyond the box it saturates.
 
     Observation: see `station_keeping_task.observe`, 18 numbers in SI units; with `sensors` of the measured motion, and
     followed by the age of each sensor's reading [s] (up to 60) and what else it shows. `info` has `position_error` [m],
@@ -92,17 +105,21 @@ class StationKeepingEnv(MarineEnv):
         self,
         vehicle: Vehicle | str | os.PathLike[str] = "bluerov2_heavy",
         *,
-        current: EnvironmentCurrent = 0.3,
+        current: EnvironmentCurrent | None = None,
         control_period: float = 0.1,
         substeps: int = 4,
         scheme: str = "midpoint",
+        actuation: str = "wrench",
         reward: StationKeepingReward | Mapping[str, float] | None = None,
-        goal_position: Sequence[float] = (0.0, 0.0, 5.0),
-        start_radius: float = 2.0,
-        workspace_radius: float = 6.0,
+        goal_position: Sequence[float] | None = None,
+        start_radius: float | None = None,
+        workspace_radius: float | None = None,
         sensors: Sensors = None,
         render_mode: str | None = None,
         record: bool = False,
+        randomise: RandomisationChoice | None = None,
+        vehicle_pool: int = 256,
+        vehicle_seed: int = 0,
     ) -> None:
         """Check and compose the environment.
 
@@ -110,27 +127,38 @@ class StationKeepingEnv(MarineEnv):
             vehicle: a catalogue name, the path of a TOML file, or a `Vehicle`.
             current: a speed [m/s]: each episode draws a horizontal current of up to it, of any direction; or
                 three numbers: this current in NED, always; or a `dq_marine.currents.CurrentProfile` or
-                `GaussMarkovCurrent`, or a dictionary of its attributes.
+                `GaussMarkovCurrent`, or a dictionary of its attributes. None: a speed, that of `randomise` or 0.3 m/s.
             control_period: time between actions [s].
             substeps: integrator steps in a control period.
             scheme: the integrator's drift, by name.
+            actuation: "wrench" or "thrusters": what an action drives; thrusters, azimuths and fins are at rest when an
+                episode begins.
             reward: weights and widths, as a `StationKeepingReward` or a dictionary of its fields.
-            goal_position: in NED [m].
-            start_radius: episodes start within this distance of the goal [m], one in ten at the goal itself.
-            workspace_radius: episodes end beyond this distance from the goal [m].
+            goal_position: in NED [m]; None for (0, 0, 5), or where a vessel that floats is at rest.
+            start_radius: episodes start within this distance of the goal [m], one in ten at the goal itself; a vessel
+                that floats starts level with it. None for 2 m, growing with the length of vehicles above 1.5 m.
+            workspace_radius: episodes end beyond this distance from the goal [m]; None for 6 m, growing likewise.
             sensors: what the agent is told by, see `dq_marine.sensors`: "auv", a list of sensors, or a dictionary; None
                 for the motion as it is.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.
+            randomise: let each episode fly another vehicle, drawn as a randomisation says: "default", the name of
+                another one that ships, the path of a TOML file, or a `dq_marine.randomisation.Randomisation`.
+            vehicle_pool: how many vehicles are drawn beforehand; each episode takes one of them.
+            vehicle_seed: of these draws: environments of one seed share their vehicles.
 
         Raises:
             InvalidInputError: a value is wrong.
             VehicleFileError: the vehicle file is wrong.
         """
         self.reward = _reward(reward)
-        self.goal_position_ned = finite_array("goal_position", goal_position, 3)
-        self.start_radius = finite_number("start_radius", start_radius)
-        self.workspace_radius = finite_number("workspace_radius", workspace_radius, above=0.0)
+        loaded = load_vehicle(vehicle)
+        goal = _default_goal(loaded) if goal_position is None else goal_position
+        self.goal_position_ned = finite_array("goal_position", goal, 3)
+        workspace = _default_workspace(loaded) if workspace_radius is None else workspace_radius
+        self.workspace_radius = finite_number("workspace_radius", workspace, above=0.0)
+        start = _default_start(loaded, self.workspace_radius) if start_radius is None else start_radius
+        self.start_radius = finite_number("start_radius", start)
         if self.workspace_radius > LARGEST_WORKSPACE:
             raise InvalidInputError(
                 f"workspace_radius = {self.workspace_radius:g} m; give at most {LARGEST_WORKSPACE:g} m, within which "
@@ -142,21 +170,24 @@ class StationKeepingEnv(MarineEnv):
                 f"{self.workspace_radius:g} m"
             )
         self.sensors = sensors_of(sensors)
-        self._instruments = tuple(one.instrument for one in self.sensors)
+        randomisation = None if randomise is None else Randomisation.load(randomise)
+        draw = VehicleDraw(randomisation, vehicle_pool, vehicle_seed)
         super().__init__(
-            vehicle,
-            current=current,
+            loaded,
+            current=draw.current_or_default(current),
             control_period=control_period,
             substeps=substeps,
             scheme=scheme,
+            actuation=actuation,
             render_mode=render_mode,
             record=record,
+            vehicle_draw=draw,
         )
 
-    @property
-    def task(self) -> Task:
-        """The formulas, told by sensors if there are any."""
-        return with_sensors(TASK, self._instruments) if self._instruments else TASK
+    def own_task(self) -> Task:
+        """Return the formulas, told by sensors if there are any."""
+        instruments = tuple(one.instrument for one in self.sensors)
+        return with_sensors(TASK, instruments) if instruments else TASK
 
     @property
     def observation_bound(self) -> NDArray[np.float32]:
@@ -181,17 +212,19 @@ class StationKeepingEnv(MarineEnv):
         )
         x, y, z = position.tolist()
         q0, q1, q2, q3 = q.tolist()
-        limits = self.vehicle.wrench_limits
         return Aim(
             (x, y, z),
             (q0, q1, q2, q3),
             self.start_radius,
+            1.0 if self.vehicle.hydrostatics is None else 0.0,
             self.workspace_radius,
             self.control_period,
-            tuple(limits.tolist()),
-            float(np.count_nonzero(limits)),
-            Weights(**{field.name: float(getattr(self.reward, field.name)) for field in fields(self.reward)}),
-            nested_numbers(self.sensors, self.control_period),
+            axes=float(len(self.drive.places)),
+            weights=Weights(
+                **{field.name: float(getattr(self.reward, field.name)) for field in fields(self.reward)}
+            ),
+            sensors=nested_numbers(self.sensors, self.control_period),
+            **self.vehicle_aim(self.vehicle),
         )
 
     def goal_pose(self, aim: Aim) -> tuple[Vector3, Quaternion]:
@@ -202,6 +235,24 @@ class StationKeepingEnv(MarineEnv):
         """Whether the vehicle is on station."""
         near = measures["position_error"] < SUCCESS_POSITION
         return near & (measures["attitude_error"] < SUCCESS_ATTITUDE)
+
+
+def _default_goal(vehicle: Vehicle) -> tuple[float, float, float]:
+    return (0.0, 0.0, GOAL_DEPTH if vehicle.hydrostatics is None else vehicle.equilibrium_depth)
+
+
+def _default_workspace(vehicle: Vehicle) -> float:
+    return min(LARGEST_WORKSPACE, WORKSPACE_RADIUS * _lengths(vehicle))
+
+
+def _default_start(vehicle: Vehicle, workspace_radius: float) -> float:
+    """Return the default start radius [m], that of a short vehicle where the workspace is too small for more."""
+    return min(START_RADIUS * _lengths(vehicle), max(START_RADIUS, workspace_radius / 3.0))
+
+
+def _lengths(vehicle: Vehicle) -> float:
+    """Return the vehicle's length over `LONG_VEHICLE`, 1 at least."""
+    return max(1.0, vehicle.dimensions.length / LONG_VEHICLE)
 
 
 def _reward(reward: StationKeepingReward | Mapping[str, float] | None) -> StationKeepingReward:

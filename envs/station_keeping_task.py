@@ -57,10 +57,11 @@ class Aim(NamedTuple):
         position_ned: of the goal [m].
         attitude: of the goal, body to NED.
         start_radius: of the ball about the goal in which episodes start [m].
+        start_height: of that ball along the vertical, over its radius: 1, or 0 where starts are level with the goal.
         workspace_radius: distance from the goal [m] beyond which the episode ends.
         period: control period [s].
         wrench_limits: wrench at full action.
-        axes: number of actuated axes.
+        axes: how many numbers the agent's action has.
         weights: of the reward.
         sensors: their numbers, nested in pairs; see `kernel.sensing`.
     """
@@ -68,6 +69,7 @@ class Aim(NamedTuple):
     position_ned: Vector3
     attitude: Quaternion
     start_radius: float
+    start_height: float
     workspace_radius: float
     period: float
     wrench_limits: tuple[float, float, float, float, float, float]
@@ -91,7 +93,7 @@ def start(aim: Aim, uniforms: tuple[float, ...]) -> Start:
     height = 2.0 * uniforms[1] - 1.0
     azimuth = math.pi * (2.0 * uniforms[2] - 1.0)
     across = math.sqrt(1.0 - height * height)
-    direction = (across * math.cos(azimuth), across * math.sin(azimuth), height)
+    direction = (across * math.cos(azimuth), across * math.sin(azimuth), aim.start_height * height)
     distance = aim.start_radius * uniforms[3] ** (1.0 / 3.0)
     attitude = quaternion_from_euler(
         LARGEST_TILT * (2.0 * uniforms[4] - 1.0),
@@ -159,15 +161,13 @@ def observe(aim: Aim, memory: Memory, motion: Motion) -> Any:
     )
 
 
-def judge(aim: Aim, motion: Motion, action: tuple[float, ...]) -> Verdict:
+def judge(aim: Aim, motion: Motion, squares: float) -> Verdict:
     """Return the reward of `StationKeepingReward`, the end beyond the workspace, distance and attitude error."""
     error = subtract(aim.position_ned, motion.position_ned)
     distance = math.sqrt(dot(error, error))
     to_goal = quaternion_multiply(quaternion_conjugate(motion.attitude), aim.attitude)
     axis = (to_goal[1], to_goal[2], to_goal[3])
     angle = 2.0 * math.atan2(math.sqrt(dot(axis, axis)), abs(to_goal[0]))
-    forces, torques = (action[0], action[1], action[2]), (action[3], action[4], action[5])
-    squares = dot(forces, forces) + dot(torques, torques)
     weights = aim.weights
     nearness = distance / weights.position_width
     reward = (

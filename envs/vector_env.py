@@ -147,7 +147,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         """Hold an action in every environment for one control period.
 
         Args:
-            actions: shape (num_envs, actuated axes), as for the single environment; they saturate beyond [-1, 1].
+            actions: shape (num_envs, actions), as for the single environment; they saturate beyond [-1, 1].
 
         Returns:
             Observations, rewards, terminations, truncations, infos, as Gymnasium's `SyncVectorEnv` has them.
@@ -363,14 +363,15 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         arrays.ended[mask] = False
 
     def _take(self, actions: NDArray[Any]) -> None:
-        """Check the actions and put them into the commands of six axes."""
+        """Check the actions and put them where the kernel takes them."""
         try:
             given = np.asarray(actions)
             with np.errstate(over="ignore", invalid="ignore"):
                 total = float(given.sum())
         except (TypeError, ValueError) as error:
             raise InvalidInputError(f"actions = {actions!r} is not numeric") from error
-        shape = (self.num_envs, len(self.single.actuated_axes))
+        places = self.single.action_places
+        shape = (self.num_envs, len(places))
         if given.shape != shape:
             raise InvalidInputError(f"actions have shape {given.shape}; give shape {shape}")
         if not np.isfinite(total):
@@ -379,7 +380,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
                 raise InvalidInputError(
                     f"actions[{bad[0]}] = {given[bad[0]].tolist()} is not finite; give finite numbers"
                 )
-        self._lanes.commands[:, self.single.actuated_axes] = given
+        self._lanes.commands[:, places] = given
 
     def _observations(self) -> Observations:
         return self._given(self._memory.arrays.observations[: self.num_envs])

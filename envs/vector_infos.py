@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from dq_marine.envs.lane_memory import COMPLETED, RESIDUAL_SQUARED, SPEED_SQUARED, SPIN_SQUARED, STATUS
 from dq_marine.envs.lane_singles import LaneSingles
+from dq_marine.envs.refusal import integration_report
 
 if TYPE_CHECKING:
     from dq_marine.envs.vector_env import DQMarineVectorEnv
@@ -35,7 +36,7 @@ class VectorInfos:
 
     def at_reset(self, wanted: Flags) -> dict[str, Any]:
         """Return the infos of environments that were reset."""
-        return self._measured(wanted) | self._currents(wanted)
+        return self._measured(wanted) | self._beginnings(wanted)
 
     def at_step(self, waiting: Flags, ended: Flags) -> dict[str, Any]:
         """Return a step's infos.
@@ -46,7 +47,7 @@ class VectorInfos:
         """
         infos = self._measured(self._everywhere)
         if self._envs.autoreset_mode is not AutoresetMode.SAME_STEP:
-            return self._with_refusals(infos) | self._currents(waiting)
+            return self._with_refusals(infos) | self._beginnings(waiting)
         if not ended.any():
             return infos
         observations = np.full(self._lanes.n, None, dtype=object)
@@ -55,7 +56,7 @@ class VectorInfos:
         final = self._with_refusals(self._measured(ended, final=True))
         infos |= {"final_obs": observations, "_final_obs": ended.copy()}
         infos |= {"final_info": final, "_final_info": ended.copy()}
-        return infos | self._currents(ended)
+        return infos | self._beginnings(ended)
 
     def _measured(self, where: Flags, *, final: bool = False) -> dict[str, Any]:
         """Return the measures and the success of some environments, with masks."""
@@ -69,12 +70,17 @@ class VectorInfos:
         infos = measures | {"is_success": single.succeeds(measures) & where}
         return infos | {f"_{name}": self._given(where) for name in infos}
 
-    def _currents(self, where: Flags) -> dict[str, Any]:
-        """Return the currents of newly begun episodes, none if there is none."""
+    def _beginnings(self, where: Flags) -> dict[str, Any]:
+        """Return the currents and drawn vehicles of newly begun episodes, nothing if there is none."""
         if not where.any():
             return {}
-        currents = self._lanes.memory.arrays.drawn_currents[: self._lanes.n]
-        return {"current_ned": np.where(where[:, None], currents, 0.0), "_current_ned": where.copy()}
+        arrays, n = self._lanes.memory.arrays, self._lanes.n
+        currents = np.where(where[:, None], arrays.drawn_currents[:n], 0.0)
+        infos = {"current_ned": currents, "_current_ned": where.copy()}
+        if self._lanes.first.pool.has_choice:
+            vehicles = np.where(where, arrays.vehicles[:n], 0.0).astype(np.int64)
+            infos |= {"vehicle": vehicles, "_vehicle": where.copy()}
+        return infos
 
     def _with_refusals(self, infos: dict[str, Any]) -> dict[str, Any]:
         """Add why the integrator refused, where it did."""
@@ -85,7 +91,7 @@ class VectorInfos:
         self.episodes_refused += len(refused)
         outcomes = np.stack([self._lanes.memory.outcome(field)[refused] for field in REPORTED], axis=1)
         for index, (why, completed, *squares) in zip(refused.tolist(), outcomes.tolist(), strict=True):
-            report = self._lanes.first.integration_report(int(why), int(completed), *squares)
+            report = integration_report(self._lanes.first.scene.step, int(why), int(completed), *squares)
             infos = self._envs._add_info(infos, {"integration": report}, index)
         return infos
 

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from dq_marine.viewer.pacing import RealTimePacer
 
 
+AHEAD = (1.0, 0.0, 0.0)
+"""Azimuths are drawn as they stand at the angle 0."""
+
+
 def shape_of(vehicle: Vehicle) -> Shape:
     """Return what a viewer needs to draw a vehicle."""
     size = vehicle.dimensions
@@ -28,10 +32,14 @@ def shape_of(vehicle: Vehicle) -> Shape:
         width=size.width,
         height=size.height,
         kind=size.shape,
+        draft=size.draft,
         max_force=float(vehicle.wrench_limits[:3].max()) or 1.0,
         thrusters=tuple(
-            Thruster(np.array(thruster.position), np.array(thruster.direction))
-            for thruster in vehicle.thrusters
+            Thruster(np.array(position), np.array(direction))
+            for position, direction in (
+                *((thruster.position, thruster.direction) for thruster in vehicle.thrusters),
+                *((azimuth.position, AHEAD) for azimuth in vehicle.azimuths),
+            )
         ),
     )
 

@@ -27,6 +27,7 @@ COMMANDS = [
     ["vehicles", "check"],
     ["vehicles", "sheet"],
     ["vehicles", "show"],
+    ["vehicles", "randomise"],
 ]
 
 
@@ -274,3 +275,20 @@ def test_interrupted_training_says_how_to_go_on(tmp_path: Path, monkeypatch: pyt
     result = run("train", "--run", tmp_path / "run")
     assert result.exit_code == 130
     assert re.search(r"Go on: dq-marine train --run .*run --resume", result.output)
+
+
+def test_drawn_vehicles_are_summed_up(tmp_path: Path) -> None:
+    result = run("vehicles", "randomise", "rexrov", "--samples", "20", "--seed", "1")
+    assert result.exit_code == 0, result.output
+    for row in ("mass", "weight less buoyancy", "natural period of roll", "terminal speed in yaw"):
+        assert row in result.output
+    mine = tmp_path / "mine.toml"
+    mine.write_text("[rigid_body]\nmass = { uniform = [1.1, 1.1] }\n", encoding="utf-8")
+    content = json.loads(run("vehicles", "randomise", "remus100", "--file", mine, "--json").stdout)
+    mass = content[0]
+    assert (mass["name"], mass["unit"], mass["nominal"]) == ("mass", "kg", 30.48)
+    assert mass["least"] == mass["largest"] == pytest.approx(1.1 * 30.48)
+    mine.write_text("[rigid_body]\nmass = 1.1\n", encoding="utf-8")
+    assert_refused(
+        run("vehicles", "randomise", "remus100", "--file", mine), r"rigid_body\.mass = 1\.1: not a distrib"
+    )

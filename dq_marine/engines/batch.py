@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from dq_marine.checks import finite_rows, positive_integer, unit_quaternion_rows
 from dq_marine.engines.lane_packing import empty_blocks, pack_blocks, pack_shared, unpack_blocks
-from dq_marine.engines.lanes import compiled_lane_advance, differing_fields, lane_layout, lanes_of
-from dq_marine.engines.one_body import AT_REST, REFUSALS, check_momentum
+from dq_marine.engines.lanes import LaneLayout, compiled_lane_advance, differing_fields, lane_layout, lanes_of
+from dq_marine.engines.one_body import AT_REST, NO_ACTUATORS, REFUSALS, check_momentum
 from dq_marine.engines.packing import pack, unpack_columns
 from dq_marine.engines.workers import Workers
 from dq_marine.errors import InvalidInputError
@@ -75,7 +75,7 @@ class Batch:
         pack_blocks(layout.parameters, packed, self._own)
         self._states = empty_blocks(layout.state, self.size, lanes)
         self._outcomes = empty_blocks(layout.outcome, self.size, lanes)
-        self._advance = compiled_lane_advance(composition, layout)
+        self._advance = self._compiled_advance(composition, layout)
         self._motion, self._place = make_motion(composition), make_placement(composition)
         self._workers = Workers(threads, len(self._states))
         self.steps_rescued = self.steps_refused = 0
@@ -137,10 +137,7 @@ class Batch:
         count = positive_integer("steps", steps)
         self._workers.run(
             self._advance,
-            self._shared,
-            self._own,
-            self._states,
-            self._outcomes,
+            *self._arrays(),
             wrenches,
             self.time,
             count,
@@ -149,6 +146,19 @@ class Batch:
         self.steps_rescued += int(self._outcome(RESCUED).sum(where=accepted))
         self.steps_refused += self.size - int(np.count_nonzero(accepted))
         self.time += count * self.step_size
+
+    def actuate(
+        self,
+        command: ArrayLike,
+        steps: int = 1,
+        wrench_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    ) -> None:
+        """Advance under commands of the actuators, in a scene that has them: see `ActuatedBatch.actuate`.
+
+        Raises:
+            InvalidInputError: this scene has none.
+        """
+        raise InvalidInputError(NO_ACTUATORS)
 
     @property
     def refusals(self) -> dict[int, str]:
@@ -198,6 +208,13 @@ class Batch:
     def close(self) -> None:
         """End the threads; they start again when there is work."""
         self._workers.close()
+
+    def _compiled_advance(self, composition: Composition, layout: LaneLayout) -> Callable[..., Any]:
+        return compiled_lane_advance(composition, layout)
+
+    def _arrays(self) -> tuple[NDArray[Any], ...]:
+        """Return what the compiled step reads and changes."""
+        return self._shared, self._own, self._states, self._outcomes
 
     @property
     def _parameters(self) -> StepParameters:

@@ -12,6 +12,7 @@ from numba import types
 from dq_marine.engines.compilation import compile_function
 from dq_marine.engines.one_body import AT_REST
 from dq_marine.engines.packing import make_load, store, structure_type
+from dq_marine.kernel.push import action_size
 from dq_marine.kernel.step import Composition, StepParameters, in_water
 from dq_marine.kernel.task import Task, draws_of_period, make_control_period
 
@@ -50,6 +51,8 @@ def compiled_control_period(
     load_state = make_load(structure_type(AT_REST))
     load_uniforms = make_load(structure_type(draws_of_period(composition, task)))
     keep = keep_water if composition.water.draws else keep_nothing
+    size = action_size(composition)
+    load_action = make_load(types.UniTuple(types.float64, size))
 
     def control_period_arrays(
         parameters: Any,
@@ -63,18 +66,17 @@ def compiled_control_period(
         steps: int,
         uniforms: Any,
     ) -> Any:
-        for axis in range(6):
+        for axis in range(size):
             if not math.isfinite(action[axis]):
                 return ACTION_NOT_FINITE, 0, 0, 0.0, 0.0, 0.0
             action[axis] = max(-1.0, min(1.0, action[axis]))
-        command = (action[0], action[1], action[2], action[3], action[4], action[5])
         numbers = load_parameters(parameters)
         outcome = control_period(
             numbers,
             load_aim(aim),
             load_state(state),
             load_memory(memory),
-            command,
+            load_action(action),
             time,
             steps,
             load_uniforms(uniforms),

@@ -20,10 +20,10 @@ from dq_marine.engines.lane_rows import (
     store_rows,
 )
 from dq_marine.engines.lane_type import Lanes
+from dq_marine.engines.lane_vehicles import PoolLayout, make_renew_vehicle
 from dq_marine.engines.packing import make_load, structure_type
 from dq_marine.engines.pcg64 import next_uniform
 from dq_marine.kernel.beginning import (
-    NO_ACTION,
     Beginning,
     Drawn,
     beginning_draws,
@@ -31,6 +31,7 @@ from dq_marine.kernel.beginning import (
     make_draw,
 )
 from dq_marine.kernel.current import CurrentDraw
+from dq_marine.kernel.push import action_size
 from dq_marine.kernel.selection import negation, select, select_call, some, spread
 from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import ACCEPTED, Composition, StepParameters, in_water, make_motion
@@ -40,7 +41,10 @@ from dq_marine.kernel.vector3 import dot
 
 @dataclass(frozen=True)
 class PeriodLayout:
-    """How environments lie in memory: the type of their own numbers, and a packing for each structure."""
+    """How environments lie in memory: the type of their own numbers, a packing for each structure, and a pool's layout.
+
+    There is no pool where episodes keep their vehicle.
+    """
 
     lanes: Lanes
     parameters: Packing
@@ -48,12 +52,13 @@ class PeriodLayout:
     state: Packing
     memory: Packing
     outcome: Packing
+    pool: PoolLayout | None = None
 
     @property
     def key(self) -> str:
         """Text that tells layouts apart."""
         packings = (self.parameters, self.aim, self.state, self.memory, self.outcome)
-        return "|".join([str(self.lanes), *(packing.key for packing in packings)])
+        return "|".join([str(self.lanes), *(packing.key for packing in packings), str(self.pool)])
 
 
 class PeriodArrays(NamedTuple):
@@ -71,6 +76,8 @@ class PeriodArrays(NamedTuple):
         memories: of the task.
         outcomes: (status, completed, rescued, residual squared, spin squared, speed squared) of the last period.
         generators: random number generators, see `engines.pcg64`, shape (bodies, 4).
+        pool: vehicles to draw from, a row each, see `engines.lane_vehicles`.
+        vehicles: numbers of those drawn.
         currents: `CurrentDraw`, packed.
         chosen: what is not drawn at a `begin`: position, quaternion, velocity (Fossen's order), current; NaN if drawn.
         drawn_currents: of the episodes begun last, shape (bodies, 3).
@@ -94,6 +101,8 @@ class PeriodArrays(NamedTuple):
     memories: Any
     outcomes: Any
     generators: Any
+    pool: Any
+    vehicles: Any
     currents: Any
     chosen: Any
     drawn_currents: Any
@@ -148,16 +157,20 @@ def as_chosen_in(chosen: Any, drawn: Drawn) -> Drawn:
 CHOSEN_COLUMNS = 16
 
 
-def saturated(action: Any) -> Any:
-    """Return the action of six axes within -1 and 1."""
-    return (
-        max(-1.0, min(1.0, action[0])),
-        max(-1.0, min(1.0, action[1])),
-        max(-1.0, min(1.0, action[2])),
-        max(-1.0, min(1.0, action[3])),
-        max(-1.0, min(1.0, action[4])),
-        max(-1.0, min(1.0, action[5])),
-    )
+def make_saturated(size: int, first: int = 0) -> Callable[[Any], Any]:
+    """Return (action) -> its numbers from `first` to `size`, each held within -1 and 1."""
+    if first == size - 1:
+
+        def saturated_last(action: Any) -> Any:
+            return (max(-1.0, min(1.0, action[first])),)
+
+        return saturated_last
+    rest = make_saturated(size, first + 1)
+
+    def saturated(action: Any) -> Any:
+        return (max(-1.0, min(1.0, action[first])), *rest(action))
+
+    return saturated
 
 
 @functools.cache
@@ -219,6 +232,7 @@ def compiled_begin(composition: Composition, task: Task, layout: PeriodLayout) -
     load_parameters, load_aim, load_state = loads.parameters, loads.aim, loads.state
     load_memory, load_flags = loads.memory, loads.flags
     store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
+    store_aim, renew_vehicle = stores.aim, make_renew_vehicle(layout.pool, layout.lanes)
     begin_one, motion_of = make_begin_one(composition, task), make_motion(composition)
     observe, judge = task.observe, task.judge
 
@@ -231,16 +245,18 @@ def compiled_begin(composition: Composition, task: Task, layout: PeriodLayout) -
                 state = load_state(arrays.shared, arrays.states, block)
                 memory = load_memory(arrays.shared, arrays.memories, block)
                 motion = motion_of(parameters, state)
-                measures = judge(aim, motion, NO_ACTION).measures
+                measures = judge(aim, motion, 0.0).measures
                 observation = observe(aim, memory, motion)
                 current = spread((0.0, 0.0, 0.0), motion.position_ned[0])
                 going_on = Beginning(parameters.water, state, memory, observation, measures), current
                 bodies = lane_numbers(motion.position_ned[0], block)
+                parameters, aim = renew_vehicle(renewed, arrays, block, bodies, parameters, aim)
                 arguments = (arrays.generators, arrays.chosen, arrays.currents, bodies, parameters, aim)
                 begun, current = select_call(renewed, begin_one, arguments, going_on)
                 store_state(arrays.states, block, begun.state)
                 store_memory(arrays.memories, block, begun.memory)
                 store_parameters(arrays.parameters, block, in_water(parameters, begun.water))
+                store_aim(arrays.aims, block, aim)
                 store_rows(arrays.observations, block, begun.observation)
                 store_rows(arrays.drawn_currents, block, current)
                 store_columns(arrays.measures, block, begun.measures)
@@ -254,19 +270,17 @@ def compiled_period(
 ) -> Callable[..., Any]:
     """Compile (first, last, arrays, actions, period, steps, most_periods): one control period of a range of blocks.
 
-    `actions` has a row of six axes for every environment, saturated here; `period` [s] is divided into `steps`; an
+    `actions` has a row for every environment, saturated here; `period` [s] is divided into `steps`; an
     episode is truncated after `most_periods`. `renewal` is `renew_at_next_step` or `renew_at_same_step`.
     """
     loads, stores = _Loads(layout), _Stores(layout)
     load_parameters, load_aim, load_state = loads.parameters, loads.aim, loads.state
-    load_memory, load_flags, load_numbers, load_actions = (
-        loads.memory,
-        loads.flags,
-        loads.numbers,
-        loads.actions,
-    )
+    load_memory, load_flags, load_numbers = loads.memory, loads.flags, loads.numbers
+    size = action_size(composition)
+    load_actions, saturated = make_load_rows(layout.lanes, size), make_saturated(size)
     store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
     store_aim, store_outcome = stores.aim, stores.outcome
+    renew_vehicle = make_renew_vehicle(layout.pool, layout.lanes)
     control_period, begin_one = make_control_period(composition, task), make_begin_one(composition, task)
     motion_of = make_motion(composition)
     draw_uniforms = make_lane_uniforms(composition.water.draws, task.sensing.later_draws)
@@ -320,6 +334,9 @@ def compiled_period(
                 store_columns(arrays.final_measures, block, verdict.measures)
             if some(renewed):
                 default_aim = load_aim(arrays.shared_aim, arrays.default_aims, block)
+                parameters, default_aim = renew_vehicle(
+                    renewed, arrays, block, bodies, parameters, default_aim
+                )
                 current = spread((0.0, 0.0, 0.0), verdict.reward)
                 arguments = (
                     arrays.generators,
@@ -351,7 +368,6 @@ class _Loads:
         self.memory = make_load_block(layout.memory)
         self.flags = make_load_column(layout.lanes.of(types.boolean))
         self.numbers = make_load_column(layout.lanes)
-        self.actions = make_load_rows(layout.lanes, 6)
 
 
 class _Stores:

@@ -45,8 +45,17 @@ AT_REST = BodyState(
 )
 """At the world's origin, axes aligned, at rest in the water."""
 
+UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
+"""Quaternion of a body whose axes are those of the world."""
+
 SMALLEST_FRACTION = 2.0**-20
 """Of the scene's step: the smallest that is tried when an admissible one is sought."""
+
+
+NO_ACTUATORS = (
+    'this scene is driven by wrenches; make it with Scene(..., actuation="thrusters") to command actuators'
+)
+"""What is said to those who command actuators that are not there."""
 
 
 class OneBody:
@@ -74,9 +83,9 @@ class OneBody:
         self._parameters_at = parameters_at
         self.parameters = parameters_at(step)
         self._numbers = pack(self.parameters)
-        self._advance = compiled_advance(composition, structure_type(self.parameters))
+        self._advance = self._compiled_advance()
         self._motion = make_motion(composition)
-        self._state = pack(AT_REST)
+        self._state = pack(place_body(composition, self.parameters, np.zeros(3), UPRIGHT, np.zeros(6)))
         self._beginning = self.parameters.water
         self.step_size = step
         self.time = 0.0
@@ -105,7 +114,8 @@ class OneBody:
         position = finite_array("position_ned", position_ned, 3)
         q = unit_quaternion("quaternion_body_to_ned", quaternion_body_to_ned)
         velocity = finite_array("velocity_body", velocity_body, 6)
-        state = pack(place_body(self._composition, self.parameters, position, q, velocity))
+        beginning = in_water(self.parameters, self._beginning)
+        state = pack(place_body(self._composition, beginning, position, q, velocity))
         check_momentum(state)
         self._state = state
         self._set_water(self._beginning)
@@ -165,6 +175,26 @@ class OneBody:
         self.steps_rescued += rescued
         self.time += count * self.step_size
 
+    def actuate(
+        self,
+        command: ArrayLike,
+        steps: int = 1,
+        wrench_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    ) -> None:
+        """Advance under a command of the actuators, in a scene that has them: see `ActuatedBody.actuate`.
+
+        Raises:
+            InvalidInputError: this scene has none.
+        """
+        raise InvalidInputError(NO_ACTUATORS)
+
+    def _compiled_advance(self) -> Callable[..., Any]:
+        return compiled_advance(self._composition, structure_type(self.parameters))
+
+    def _as_driven(self, parameters: StepParameters) -> StepParameters:
+        """Return the parameters of the next step, for one of another size."""
+        return parameters
+
     def _refusal(
         self, status: int, completed: int, wrench: NDArray[np.float64], residual_squared: float
     ) -> StepNotSolvableError:
@@ -183,7 +213,7 @@ class OneBody:
         force = from_fossen(tuple(wrench.tolist()))
         fraction = 0.5
         while fraction >= SMALLEST_FRACTION:
-            parameters = self._parameters_at(self.step_size * fraction)
+            parameters = self._as_driven(self._parameters_at(self.step_size * fraction))
             try:
                 outcome = advance(parameters, self.state, force, self.time, min(int(steps / fraction), 64))
                 if outcome.status == ACCEPTED:

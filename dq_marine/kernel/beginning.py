@@ -11,8 +11,6 @@ from dq_marine.kernel.step import Composition, StepParameters, in_water, make_mo
 from dq_marine.kernel.task import Start, Task
 from dq_marine.kernel.vector3 import Vector3
 
-NO_ACTION = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-
 
 class Drawn(NamedTuple):
     """What an episode begins with: the start, the current in NED [m/s], and uniforms for the first measurement."""
@@ -68,7 +66,7 @@ def make_beginning(composition: Composition, task: Task) -> Callable[[StepParame
         state = place(flowing, start.position_ned, start.attitude, start.velocity)
         motion = motion_of(flowing, state)
         memory = sense(aim, forget(aim), motion, drawn.for_sensing)
-        measures = judge(aim, motion, NO_ACTION).measures
+        measures = judge(aim, motion, 0.0).measures
         return Beginning(flowing.water, state, memory, observe(aim, memory, motion), measures)
 
     return begin

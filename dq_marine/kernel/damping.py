@@ -1,8 +1,8 @@
 """Damping matrices D(chi) = linear + diag(quadratic |chi|), diagonal or full, and what a kick does with them.
 
 A diagonal D is held as the spatial vector of its diagonal and a full one as a 6x6 matrix. Each kind offers
-the same five operations under `DampingAlgebra`, so that one kick serves both and the diagonal one never
-multiplies by zeros.
+the same operations under `DampingAlgebra`, so that one kick serves both and the diagonal one never
+multiplies by zeros. `kernel.coupled_damping` has more kinds.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from dq_marine.kernel.spatial import (
     spatial_multiply_elementwise,
     spatial_scale,
     spatial_scale_rows_and_columns,
+    spatial_subtract,
 )
 
 
@@ -42,13 +43,16 @@ class FullDamping(NamedTuple):
 class DampingAlgebra(NamedTuple):
     """The operations on one kind of damping matrix.
 
-    at(damping, twist) is D(chi); slope(damping, twist) is the derivative of D(chi) chi; apply(D, chi) is D chi;
+    at(damping, twist) is D(chi); slope(damping, twist) is the derivative of D(chi) chi;
+    growth(damping, s, before, after) is s times what the diagonal of D gains between two twists;
+    apply(D, chi) is D chi;
     add_scaled(m, s, D) is m + s D for a 6x6 m;
     sandwich(D, m) is D m D.
     """
 
     at: Callable[..., Any]
     slope: Callable[..., Any]
+    growth: Callable[..., Spatial]
     apply: Callable[..., Any]
     add_scaled: Callable[..., Any]
     sandwich: Callable[..., Any]
@@ -64,6 +68,14 @@ def diagonal_at(damping: DiagonalDamping, twist: Spatial) -> Spatial:
 def diagonal_slope(damping: DiagonalDamping, twist: Spatial) -> Spatial:
     """Return the diagonal of d(D(chi) chi)/dchi = linear + 2 quadratic |chi|."""
     return diagonal_at(DiagonalDamping(damping.linear, spatial_scale(2.0, damping.quadratic)), twist)
+
+
+def own_axis_growth(
+    damping: DiagonalDamping | FullDamping, s: float, before: Spatial, after: Spatial
+) -> Spatial:
+    """Return s quadratic (|after| - |before|)."""
+    faster = spatial_subtract(spatial_absolute(after), spatial_absolute(before))
+    return spatial_multiply_elementwise(spatial_scale(s, damping.quadratic), faster)
 
 
 def diagonal_add_scaled(m: Matrix6, s: float, d: Spatial) -> Matrix6:
@@ -96,6 +108,7 @@ def full_sandwich(d: Matrix6, m: Matrix6) -> Matrix6:
 DIAGONAL = DampingAlgebra(
     at=diagonal_at,
     slope=diagonal_slope,
+    growth=own_axis_growth,
     apply=spatial_multiply_elementwise,
     add_scaled=diagonal_add_scaled,
     sandwich=diagonal_sandwich,
@@ -103,6 +116,7 @@ DIAGONAL = DampingAlgebra(
 FULL = DampingAlgebra(
     at=full_at,
     slope=full_slope,
+    growth=own_axis_growth,
     apply=matrix6_transform,
     add_scaled=matrix6_add_scaled,
     sandwich=full_sandwich,

@@ -25,10 +25,11 @@ does not, M, mu and F.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
-from dq_marine.kernel.damping import DIAGONAL, FULL, DampingAlgebra
+from dq_marine.kernel.damping import DampingAlgebra
 from dq_marine.kernel.inertia import Inertia, momentum_from_twist, twist_from_momentum
 from dq_marine.kernel.selection import by_precision, select, some, spread
 from dq_marine.kernel.spatial import (
@@ -91,6 +92,7 @@ def linear_kick(
     return spatial_add(matrix6_transform(kick.propagator, momentum), matrix6_transform(kick.forcing, wrench))
 
 
+@functools.cache
 def make_quadratic_kick(algebra: DampingAlgebra) -> Kick:
     """Return the kick (K1)-(K3) for one kind of damping matrix."""
     damping_at, damping_apply = algebra.at, algebra.apply
@@ -121,6 +123,7 @@ def make_quadratic_kick(algebra: DampingAlgebra) -> Kick:
     return quadratic_kick
 
 
+@functools.cache
 def make_node_kick(algebra: DampingAlgebra) -> Kick:
     """Return the kick (K4) for one kind of damping matrix; its implicit part is solved by Newton's method."""
     damping_at, damping_slope = algebra.at, algebra.slope
@@ -148,9 +151,3 @@ def make_node_kick(algebra: DampingAlgebra) -> Kick:
         return spatial_add_scaled(momentum_from_twist(inertia, twist), kick.explicit_duration, excess)
 
     return node_kick
-
-
-diagonal_node_kick = make_node_kick(DIAGONAL)
-full_node_kick = make_node_kick(FULL)
-diagonal_quadratic_kick = make_quadratic_kick(DIAGONAL)
-full_quadratic_kick = make_quadratic_kick(FULL)

@@ -16,9 +16,10 @@ S knows; the kick of `kernel.kick` takes its place there.
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
-from dq_marine.kernel.damping import DIAGONAL, FULL, DampingAlgebra
+from dq_marine.kernel.damping import DampingAlgebra
 from dq_marine.kernel.inertia import Inertia, momentum_from_twist, twist_from_momentum
 from dq_marine.kernel.kick import Kick, QuadraticKick, make_quadratic_kick
 from dq_marine.kernel.selection import select, some
@@ -26,10 +27,8 @@ from dq_marine.kernel.spatial import (
     Spatial,
     matrix6_invert,
     matrix6_transform,
-    spatial_absolute,
     spatial_add,
     spatial_add_scaled,
-    spatial_multiply_elementwise,
     spatial_scale,
     spatial_subtract,
 )
@@ -50,11 +49,8 @@ def combined(s: float, a: Spatial, r: float, b: Spatial) -> Spatial:
     return spatial_add_scaled(spatial_scale(s, a), r, b)
 
 
-def stiffens(inertia: Inertia, quadratic: Spatial, before: Spatial, after: Spatial) -> bool:
-    """Whether gamma h times damping grows, between two velocities, by more than a part of the diagonal of M."""
-    growth = spatial_multiply_elementwise(
-        quadratic, spatial_subtract(spatial_absolute(after), spatial_absolute(before))
-    )
+def stiffens(inertia: Inertia, growth: Spatial) -> bool:
+    """Whether gamma h times damping, of which this is the `growth`, grows by more than a part of the diagonal of M."""
     turning, moving = growth
     m, n = inertia.matrix.angular, inertia.matrix.linear
     return (
@@ -67,9 +63,10 @@ def stiffens(inertia: Inertia, quadratic: Spatial, before: Spatial, after: Spati
     )
 
 
+@functools.cache
 def make_rosenbrock_kick(algebra: DampingAlgebra) -> Kick:
     """Return the kick (R1)-(R2) for one kind of damping matrix."""
-    damping_at, damping_slope = algebra.at, algebra.slope
+    damping_at, damping_slope, damping_growth = algebra.at, algebra.slope, algebra.growth
     damping_apply, damping_add_scaled = algebra.apply, algebra.add_scaled
 
     def excess_at(damping: Any, twist: Spatial, wrench: Spatial) -> Spatial:
@@ -88,7 +85,7 @@ def make_rosenbrock_kick(algebra: DampingAlgebra) -> Kick:
         u1 = matrix6_transform(system, push)
 
         twist = spatial_add_scaled(start, A21, u1)
-        rough = stiffens(inertia, spatial_scale(GAMMA * h, damping.quadratic), start, twist)
+        rough = stiffens(inertia, damping_growth(damping, GAMMA * h, start, twist))
         carried = momentum_from_twist(inertia, spatial_scale(GAMMA * C21, u1))
         push = spatial_scale(GAMMA * h, excess_at(damping, twist, wrench))
         u2 = matrix6_transform(system, spatial_add(push, carried))
@@ -110,7 +107,3 @@ def make_rosenbrock_kick(algebra: DampingAlgebra) -> Kick:
         return arrived
 
     return rosenbrock_kick
-
-
-diagonal_rosenbrock_kick = make_rosenbrock_kick(DIAGONAL)
-full_rosenbrock_kick = make_rosenbrock_kick(FULL)

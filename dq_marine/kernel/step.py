@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
+from dq_marine.kernel.actuation import NO_ACTUATION, Actuation
 from dq_marine.kernel.body import BodyState, Motion
 from dq_marine.kernel.current import Water
 from dq_marine.kernel.drift import Drift
@@ -43,6 +44,7 @@ class Composition:
         drift: force-free motion, (inertia, h, pose, momentum) -> (pose, momentum, report).
         rescue: the same for a step that `drift` does not solve.
         water: what moving water does.
+        actuation: the vehicle's actuators; their force is the first of its list. None, unless a scene has them.
     """
 
     method: Callable[[Composition], Advance]
@@ -52,6 +54,7 @@ class Composition:
     drift: Drift
     rescue: Drift
     water: Water
+    actuation: Actuation = NO_ACTUATION
 
 
 class StepParameters(NamedTuple):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from dq_marine.kernel.body import BodyState, Motion
+from dq_marine.kernel.push import action_size, make_actuators_push, make_push, make_sum_of_squares
 from dq_marine.kernel.quaternion import Quaternion
 from dq_marine.kernel.selection import select
 from dq_marine.kernel.spatial import Spatial
@@ -21,7 +22,6 @@ from dq_marine.kernel.step import (
     StepOutcome,
     StepParameters,
     in_water,
-    make_advance,
     make_motion,
 )
 from dq_marine.kernel.vector3 import Vector3
@@ -81,10 +81,11 @@ class Task:
         draws: how many uniform random numbers in [0, 1) `start` takes.
         start: (parameters, uniforms) -> Start. Called for one body at a time, it may branch.
         forget: (parameters) -> memory at an episode's start.
-        act: (parameters, action) -> wrench on the body, from the normalised action of six axes.
+        act: (parameters, action) -> wrench on the body, from the normalised action of six axes; not called where
+            actuators drive the body.
         remember: (parameters, memory, motion) -> memory at the end of a control period.
         observe: (parameters, memory, motion) -> nested tuples of numbers, flattened into the observation.
-        judge: (parameters, motion, action) -> Verdict.
+        judge: (parameters, motion, sum of squares of the action) -> Verdict.
         measure_names: names of the verdict's measures.
         episode_fields: of the parameters, those that may differ between episodes.
         sensing: what sensors do to the memory.
@@ -96,7 +97,7 @@ class Task:
     act: Callable[[Any, Any], Spatial]
     remember: Callable[[Any, Any, Motion], Any]
     observe: Callable[[Any, Any, Motion], Any]
-    judge: Callable[[Any, Motion, Any], Verdict]
+    judge: Callable[[Any, Motion, float], Verdict]
     measure_names: tuple[str, ...]
     episode_fields: tuple[str, ...]
     sensing: Sensing = NO_SENSORS
@@ -135,12 +136,16 @@ def draws_of_period(composition: Composition, task: Task) -> PeriodUniforms:
 def make_control_period(
     composition: Composition, task: Task
 ) -> Callable[[StepParameters, Any, BodyState, Any, Any, float, int, PeriodUniforms], PeriodOutcome]:
-    """Return (parameters, task parameters, state, memory, action, time, steps, uniforms) -> outcome."""
-    advance = make_advance(composition)
-    motion_of = make_motion(composition)
-    act, sense, remember = task.act, task.sensing.later, task.remember
-    observe, judge, evolve = task.observe, task.judge, composition.water.evolve
-    choose_water = select if composition.water.draws else no_choice
+    """Return (parameters, task parameters, state, memory, action, time, steps, uniforms) -> outcome.
+
+    Where the composition has actuators, the task must be made by `with_actuators`.
+    """
+    push = (
+        make_actuators_push(composition) if composition.actuation.channels else make_push(composition, task)
+    )
+    motion_of, sum_of_squares = make_motion(composition), make_sum_of_squares(action_size(composition))
+    sense, remember, observe, judge = task.sensing.later, task.remember, task.observe, task.judge
+    evolve, choose_water = composition.water.evolve, select if composition.water.draws else no_choice
 
     def control_period(
         parameters: StepParameters,
@@ -153,13 +158,13 @@ def make_control_period(
         uniforms: PeriodUniforms,
     ) -> PeriodOutcome:
         moving = evolve(parameters.water, time, uniforms.water)
-        step = advance(in_water(parameters, moving), state, act(aim, action), time, steps)
+        step, pushed = push(in_water(parameters, moving), aim, state, memory, action, time, steps)
         taken = step.status == ACCEPTED
         water = choose_water(taken, moving, parameters.water)
         motion = motion_of(in_water(parameters, water), step.state)
-        sensed = sense(aim, memory, motion, uniforms.sensing)
+        sensed = sense(aim, pushed, motion, uniforms.sensing)
         memory_after = select(taken, remember(aim, sensed, motion), memory)
-        verdict = judge(aim, motion, action)
+        verdict = judge(aim, motion, sum_of_squares(action))
         reward = select(taken, verdict.reward, 0.0)
         terminated = select(taken, verdict.terminated, 1.0)
         return PeriodOutcome(

@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from dq_marine.assembly import Assembly
+from dq_marine.damping_term import DampingTerm
 from dq_marine.engines.one_body import OneBody
 from dq_marine.kernel.damping import DiagonalDamping, FullDamping
 from dq_marine.kernel.step import Advance, Composition, StepParameters
@@ -22,7 +23,7 @@ from dq_marine.rivals.rk4_euler import make_rk4_euler
 from dq_marine.rivals.rk4_quaternion import make_rk4_quaternion
 from dq_marine.rivals.rkmk4 import make_rkmk4
 from dq_marine.rivals.semi_implicit_euler import make_semi_implicit_euler
-from dq_marine.terms import DampingTerm, ForceTerm
+from dq_marine.terms import ForceTerm
 
 Family: TypeAlias = Literal["DQVI", "Runge-Kutta", "Euler", "Lie group"]
 

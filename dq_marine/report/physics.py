@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.assembly import Assembly
-from dq_marine.terms import DampingTerm, ForceTerm, restoring_terms, uniform_water
+from dq_marine.damping_term import DampingTerm
+from dq_marine.terms import ForceTerm, restoring_terms, uniform_water
 
 Array = NDArray[np.float64]
 

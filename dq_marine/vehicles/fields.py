@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
@@ -10,6 +10,7 @@ Row6: TypeAlias = tuple[float, float, float, float, float, float]
 Row3: TypeAlias = tuple[float, float, float]
 Vector3: TypeAlias = Row3
 Vector6: TypeAlias = Row6
+Motion: TypeAlias = Literal["surge", "sway", "heave", "roll", "pitch", "yaw"]
 NonNegative: TypeAlias = Annotated[float, Field(ge=0)]
 Positive: TypeAlias = Annotated[float, Field(gt=0)]
 NonNegative6: TypeAlias = tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative]

@@ -7,27 +7,32 @@ Craft Hydrodynamics and Motion Control.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from dq_marine.vehicles.actuators import ActuatorSet, Azimuth, ChannelSheet, Fin, Thruster
+from dq_marine.vehicles.cross_flow import CrossFlow
+from dq_marine.vehicles.damping_coupling import DampingCoupling, coupling_tensor
 from dq_marine.vehicles.fields import (
     Matrix3,
     Matrix6,
+    Motion,
     NonNegative6,
     Positive,
     Table,
     Vector3,
     Vector6,
 )
+from dq_marine.vehicles.hydrostatics import HullBox, Hydrostatics, Load
 from dq_marine.vehicles.plausibility import check_vehicle
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity [m/s^2]."""
 
-MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+MOTIONS: tuple[str, ...] = get_args(Motion)
 """Names of the six axes, in Fossen's order."""
 
 
@@ -67,10 +72,12 @@ class Damping(Table):
     Attributes:
         linear: six numbers or a 6x6 matrix [N s/m, N s, N m s].
         quadratic: coefficients of |nu_i| nu_i [N s^2/m^2, N m s^2].
+        couplings: forces by other velocities and speeds: drag that couples axes, lift.
     """
 
     linear: Matrix6
     quadratic: NonNegative6 = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    couplings: tuple[DampingCoupling, ...] = ()
 
 
 class Limits(Table):
@@ -90,25 +97,15 @@ class Dimensions(Table):
         length: along x [m].
         width: along y [m].
         height: along z [m].
+        draft: depth of the keel below the body origin [m], for drawing; half the height if left out.
         shape: the kind of hull to draw.
     """
 
     length: Positive
     width: Positive
     height: Positive
-    shape: Literal["open_frame", "torpedo", "ellipsoid"]
-
-
-class Thruster(Table):
-    """Place and direction of one thruster.
-
-    Attributes:
-        position: [m].
-        direction: of the force on the body at positive thrust; need not be of unit length.
-    """
-
-    position: Vector3
-    direction: Vector3
+    draft: Positive | None = None
+    shape: Literal["open_frame", "torpedo", "ellipsoid", "catamaran", "ship"]
 
 
 class Vehicle(Table):
@@ -123,10 +120,16 @@ class Vehicle(Table):
         added_mass: M_A, six numbers or a 6x6 matrix [kg, kg m, kg m^2]; minus the hydrodynamic derivatives.
         added_mass_asymmetry: how far `added_mass` as published is from symmetric, at most: |A_ij - A_ji| over
             sqrt(M_ii M_jj). It must be said where it is more than rounding; the symmetric part is what is used.
-        damping: linear and quadratic.
+        damping: linear and quadratic, with couplings.
+        cross_flow: drag of strips along the hull, besides.
         limits: of the actuators.
         dimensions: overall size.
-        thrusters: for drawing.
+        thrusters: propellers on fixed axes.
+        azimuths: propellers whose axes turn.
+        fins: rudders and planes.
+        hydrostatics: of a vessel that floats; None for one that is under water altogether.
+        hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
+        loads: weights that act besides.
     """
 
     name: str = Field(min_length=1)
@@ -137,9 +140,15 @@ class Vehicle(Table):
     added_mass: Matrix6
     added_mass_asymmetry: Annotated[float, Field(ge=0.0, le=0.1)] = 0.0
     damping: Damping
+    cross_flow: tuple[CrossFlow, ...] = ()
     limits: Limits
     dimensions: Dimensions
     thrusters: tuple[Thruster, ...] = ()
+    azimuths: tuple[Azimuth, ...] = ()
+    fins: tuple[Fin, ...] = ()
+    hydrostatics: Hydrostatics | None = None
+    hull: tuple[HullBox, ...] = ()
+    loads: tuple[Load, ...] = ()
 
     @model_validator(mode="after")
     def _plausible(self) -> Self:
@@ -152,9 +161,37 @@ class Vehicle(Table):
         return self.rigid_body.mass * STANDARD_GRAVITY
 
     @property
+    def specific_weight(self) -> float:
+        """Of the water, rho g [N/m^3]."""
+        return self.buoyancy.water_density * STANDARD_GRAVITY
+
+    @property
     def buoyant_force(self) -> float:
         """B = rho g V [N]."""
-        return self.buoyancy.water_density * STANDARD_GRAVITY * self.buoyancy.volume
+        return self.specific_weight * self.buoyancy.volume
+
+    @property
+    def waterplane_stiffness(self) -> NDArray[np.float64] | None:
+        """C of heave, roll and pitch about the body origin, shape (3, 3) [N/m, N, N m]; None if it does not float."""
+        if self.hydrostatics is None:
+            return None
+        return self.hydrostatics.stiffness_about_origin(self.specific_weight, self.buoyant_force)
+
+    @property
+    def equilibrium_depth(self) -> float:
+        """Depth of the body origin of a vessel at rest [m]; 0 if it does not float."""
+        return 0.0 if self.hydrostatics is None else self.hydrostatics.equilibrium_depth
+
+    @property
+    def load_weight(self) -> float:
+        """Of all loads [N]."""
+        return STANDARD_GRAVITY * sum(load.mass for load in self.loads)
+
+    @property
+    def load_arm(self) -> NDArray[np.float64]:
+        """First moment of the loads' weights about the body origin [N m], shape (3,)."""
+        moments = [load.mass * np.array(load.position) for load in self.loads]
+        return np.asarray(STANDARD_GRAVITY * np.sum([np.zeros(3), *moments], axis=0))
 
     @property
     def rigid_body_matrix(self) -> NDArray[np.float64]:
@@ -183,6 +220,11 @@ class Vehicle(Table):
         return np.array(self.damping.quadratic)
 
     @property
+    def damping_couplings(self) -> NDArray[np.float64]:
+        """C of the forces -sum_jk c_ijk |nu_k| nu_j on axes i, shape (6, 6, 6)."""
+        return coupling_tensor(self.damping.couplings)
+
+    @property
     def restoring_arm(self) -> NDArray[np.float64]:
         """W r_G - B r_B [N m], shape (3,): its product with the direction of down is the righting moment."""
         return self.weight * np.array(self.rigid_body.center_of_mass) - self.buoyant_force * np.array(
@@ -194,6 +236,22 @@ class Vehicle(Table):
         """Largest force and moment of each axis [N, N m], shape (6,)."""
         return np.array(self.limits.wrench)
 
+    @property
+    def actuators(self) -> ActuatorSet:
+        """The actuators whose forces are known: without thrusters that are for drawing only."""
+        driven = tuple(thruster for thruster in self.thrusters if thruster.driven)
+        return ActuatorSet(driven, self.azimuths, self.fins)
+
+    @property
+    def channels(self) -> tuple[ChannelSheet, ...]:
+        """What can be commanded, in the order of commands: thrusters, azimuths (speed, angle), fins."""
+        return self.actuators.channels
+
+    @property
+    def allocation_matrix(self) -> NDArray[np.float64]:
+        """Wrench of unit thrusts, shape (6, n): of each thruster, then along x and y of each azimuth."""
+        return self.actuators.thrust_matrix
+
 
 def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the matrix S(a) with S(a) b = a x b, shape (3, 3)."""
@@ -203,9 +261,11 @@ def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
 __all__ = [
     "MOTIONS",
     "STANDARD_GRAVITY",
+    "Azimuth",
     "Buoyancy",
     "Damping",
     "Dimensions",
+    "Fin",
     "Limits",
     "RigidBody",
     "Thruster",

@@ -12,6 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.vehicles.coupling import asymmetry
+from dq_marine.vehicles.damping_plausibility import check_damping
+from dq_marine.vehicles.floating_plausibility import check_floating
+from dq_marine.vehicles.implausible import Implausible as Implausible
+from dq_marine.vehicles.implausible import check_water_density
 
 if TYPE_CHECKING:
     from dq_marine.vehicles.model import Vehicle
@@ -21,18 +25,8 @@ DENSITY_RANGE = (0.05, 25.0)  # mean density over that of water
 ADDED_MASS_LIMIT = 50.0  # largest added over rigid-body mass, seen along a flat plate's normal
 ACCELERATION_LIMIT = 500.0  # largest force over mass [m/s^2]
 BOX_FILL_RANGE = (0.002, 3.0)  # displaced volume over length x width x height
+TRIANGLE_TOLERANCE = 0.02  # of the largest moment: published ships have rounded radii of gyration
 REACH = 1.0  # centres lie within this many overall lengths of the origin
-
-
-class Implausible(ValueError):  # noqa: N818 - reported by pydantic, which wants a ValueError
-    """A field contradicts physics, or another field, by more than any real vehicle would."""
-
-    def __init__(self, field: str, value: object, problem: str, remedy: str) -> None:
-        self.field = field
-        self.value = value
-        self.problem = problem
-        self.remedy = remedy
-        super().__init__(f"{problem}; {remedy}")
 
 
 def check_vehicle(vehicle: Vehicle) -> None:
@@ -48,10 +42,12 @@ def check_vehicle(vehicle: Vehicle) -> None:
     _check_rigid_inertia(vehicle)
     _check_added_mass_symmetry(vehicle)
     _check_mass_matrix(vehicle)
-    _check_dissipative(vehicle)
+    check_damping(vehicle)
     _check_added_mass_size(vehicle)
     _check_limits(vehicle)
     _check_thrusters(vehicle)
+    check_floating(vehicle)
+    _check_actuator_size(vehicle)
 
 
 def _check_inertia_symmetry(vehicle: Vehicle) -> None:
@@ -112,7 +108,7 @@ def _check_rigid_inertia(vehicle: Vehicle) -> None:
     if body.inertia_about == "body_origin":
         about_com = about_com - mass * (center @ center * np.eye(3) - np.outer(center, center))
     moments = np.linalg.eigvalsh(about_com)
-    if moments[0] <= 0.0 or moments[0] + moments[1] < moments[2] * (1.0 - 1e-9):
+    if moments[0] <= 0.0 or moments[0] + moments[1] < moments[2] * (1.0 - TRIANGLE_TOLERANCE):
         raise Implausible(
             "rigid_body.inertia",
             [float(f"{m:.6g}") for m in moments],
@@ -143,18 +139,6 @@ def _check_mass_matrix(vehicle: Vehicle) -> None:
         )
 
 
-def _check_dissipative(vehicle: Vehicle) -> None:
-    linear = vehicle.linear_damping
-    smallest = float(np.linalg.eigvalsh(0.5 * (linear + linear.T)).min())
-    if smallest < -1e-9 * float(np.abs(linear).max()):
-        raise Implausible(
-            "damping.linear",
-            f"smallest eigenvalue of its symmetric part = {smallest:.4g}",
-            "the linear damping feeds energy in",
-            "write damping positive: minus the derivatives X_u, Y_v, ...",
-        )
-
-
 def _check_density(vehicle: Vehicle) -> None:
     ratio = vehicle.rigid_body.mass / (vehicle.buoyancy.volume * vehicle.buoyancy.water_density)
     low, high = DENSITY_RANGE
@@ -165,13 +149,7 @@ def _check_density(vehicle: Vehicle) -> None:
             f"the mean density is {ratio:.3g} times that of the water, outside {low:g} to {high:g}",
             "give the mass in kg, the volume in m^3 and the water density in kg/m^3",
         )
-    if not 500.0 <= vehicle.buoyancy.water_density <= 2000.0:
-        raise Implausible(
-            "buoyancy.water_density",
-            vehicle.buoyancy.water_density,
-            "no water has a density outside 500 to 2000 kg/m^3",
-            "give it in kg/m^3",
-        )
+    check_water_density("buoyancy.water_density", vehicle.buoyancy.water_density)
 
 
 def _check_dimensions(vehicle: Vehicle) -> None:
@@ -245,3 +223,36 @@ def _check_thrusters(vehicle: Vehicle) -> None:
                 "the direction is the zero vector",
                 "give the direction of the force at positive thrust",
             )
+    known = [thruster.driven for thruster in vehicle.thrusters]
+    if any(known) and not all(known):
+        raise Implausible(
+            f"thrusters.{known.index(False)}",
+            vehicle.thrusters[known.index(False)].name or "one without thrust",
+            "its thrust is missing, though others have theirs",
+            "give thrust_forward and thrust_reverse, or gains and speeds, for all thrusters or for none",
+        )
+
+
+def _check_actuator_size(vehicle: Vehicle) -> None:
+    """Thrust and distance of each actuator, by the same measure as the limits."""
+    reach = REACH * max(vehicle.dimensions.length, vehicle.dimensions.width, vehicle.dimensions.height)
+    largest = ACCELERATION_LIMIT * vehicle.rigid_body.mass
+    for field in ("thrusters", "azimuths"):
+        for i, propulsion in enumerate(getattr(vehicle, field)):
+            distance = float(np.linalg.norm(propulsion.position))
+            if distance > reach:
+                raise Implausible(
+                    f"{field}.{i}.position",
+                    propulsion.position,
+                    f"it lies {distance:.3g} m from the origin of a vehicle {reach:.3g} m long",
+                    "give positions in m from the body origin",
+                )
+            thrust = max(map(abs, propulsion.thrust_range))
+            if thrust > largest:
+                raise Implausible(
+                    f"{field}.{i}",
+                    f"thrust of up to {thrust:.6g} N",
+                    f"it would accelerate the vehicle's {vehicle.rigid_body.mass:.4g} kg beyond "
+                    f"{ACCELERATION_LIMIT:g} m/s^2",
+                    "give thrust in N, gains in N s^2 and speeds in rad/s",
+                )

@@ -12,7 +12,7 @@ from dq_marine.checks import finite_number
 from dq_marine.vehicles.coupling import asymmetry, largest_coupling, unit_free
 from dq_marine.vehicles.model import MOTIONS, Vehicle
 from dq_marine.vehicles.munk import munk_growth_rate
-from dq_marine.vehicles.restoring import natural_periods, restoring_frequencies
+from dq_marine.vehicles.restoring import heave_period, natural_periods, restoring_frequencies
 
 
 @dataclass(frozen=True)
@@ -32,13 +32,14 @@ class Sheet:
         unit_free_condition_number: of M_ij / sqrt(M_ii M_jj).
         coupling: largest |M_ij| / sqrt(M_ii M_jj) off the diagonal.
         coupled: the two motions that it couples; empty if none.
+        heave_period: undamped natural period [s]; infinite for a vehicle that does not float.
         roll_period: undamped natural period [s]; infinite without a righting moment.
         pitch_period: likewise [s].
         terminal_speed: by motion, at the wrench's limit in that axis alone, against damping alone [m/s, rad/s]; 0 where
             the vehicle is not actuated, infinite where it is not damped.
         speed: U through the water along x, for what follows [m/s].
         munk_growth_rate: of deviations from straight motion at U [1/s], see `munk_growth_rate`.
-        restoring_step: step [s] at which the explicit righting moment becomes unstable, h omega = 2; larger steps are
+        restoring_step: step [s] at which the explicit restoring forces become unstable, h omega = 2; larger steps are
             refused. Infinite without.
         translation_step: step [s] up to which translation at U is solved directly, h sigma = 2; larger steps are split.
             Infinite where nothing grows.
@@ -55,6 +56,7 @@ class Sheet:
     unit_free_condition_number: float
     coupling: float
     coupled: tuple[str, ...]
+    heave_period: float
     roll_period: float
     pitch_period: float
     terminal_speed: dict[str, float]
@@ -102,6 +104,7 @@ def vehicle_sheet(vehicle: Vehicle, *, speed: float = 1.0) -> Sheet:
         unit_free_condition_number=float(np.linalg.cond(unit_free(mass_matrix, mass_matrix))),
         coupling=coupling.value,
         coupled=(MOTIONS[coupling.row], MOTIONS[coupling.column]) if coupling.value > 0.0 else (),
+        heave_period=heave_period(vehicle),
         roll_period=roll,
         pitch_period=pitch,
         terminal_speed=_by_motion([terminal_speed(vehicle, axis) for axis in range(6)]),
@@ -117,6 +120,9 @@ def terminal_speed(vehicle: Vehicle, axis: int) -> float:
     limit = float(vehicle.wrench_limits[axis])
     linear = float(vehicle.linear_damping[axis, axis])
     quadratic = float(vehicle.quadratic_damping[axis])
+    quadratic += sum(
+        float(drag.own_axis_coefficients(vehicle.buoyancy.water_density)[axis]) for drag in vehicle.cross_flow
+    )
     if limit == 0.0:
         return 0.0
     # The root in the form that stands without a quadratic part.

@@ -9,8 +9,8 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.vehicles.implausible import Implausible
 from dq_marine.vehicles.model import Vehicle
-from dq_marine.vehicles.plausibility import Implausible
 
 
 def validated(
@@ -29,16 +29,16 @@ def validated(
     try:
         return Vehicle.model_validate(content)
     except ValidationError as error:
-        lines = [_line(detail) for detail in error.errors(include_url=False)]
+        lines = [mistake(detail, detail["loc"]) for detail in error.errors(include_url=False)]
         raise error_type(f"{origin} is refused:\n  " + "\n  ".join(lines)) from error
 
 
-def _line(detail: ErrorDetails) -> str:
-    """Say one mistake: field = value: problem; remedy."""
+def mistake(detail: ErrorDetails, place: tuple[int | str, ...]) -> str:
+    """Say one mistake: field = value: problem; remedy. `place` is where the field stands in the file."""
     cause: Any = detail.get("ctx", {}).get("error")
     if isinstance(cause, Implausible):
         return f"{cause.field} = {cause.value}: {cause.problem}; {cause.remedy}"
-    field = ".".join(str(part) for part in detail["loc"])
+    field = ".".join(str(part) for part in place)
     if detail["type"] == "extra_forbidden":
         return f"{field} = {detail['input']!r}: unknown key; remove it or correct its spelling"
     if detail["type"] == "missing":

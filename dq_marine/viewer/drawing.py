@@ -53,7 +53,7 @@ from dq_marine.viewer.vehicle_model import (
     draw_goal,
     draw_vehicle,
 )
-from dq_marine.viewer.water import draw_water
+from dq_marine.viewer.water import draw_water, surroundings_of
 
 WORLD = "/world"
 CLOCK = "/world/clock"
@@ -91,12 +91,12 @@ class Drawing:
 
     def scenery(self, first: Snapshot) -> list[Command]:
         """Everything there is to draw, before it is placed; sent once."""
-        scale = self._scale
+        scale, surroundings = self._scale, surroundings_of(self._shape)
         return [
-            *draw_water(scale.sight),
+            *draw_water(surroundings, scale.sight),
             *draw_floor(scale),
-            *draw_surface(scale),
-            *draw_specks(scale),
+            *draw_surface(scale, surroundings),
+            *(draw_specks(scale) if surroundings.specks else ()),
             *draw_shadow(self._shape),
             *draw_vehicle(self._shape),
             *draw_goal(self._shape),

@@ -15,6 +15,7 @@ from dq_marine.viewer.meshes import Mesh, flat_polygon, grid_triangles, joined
 from dq_marine.viewer.messages import Command, set_object
 from dq_marine.viewer.snapshot import FloatArray, Shape
 from dq_marine.viewer.three_json import Look, Painted, painted_surface, point_cloud, rgb, surface
+from dq_marine.viewer.water import Surroundings
 
 FLOOR = "/world/floor"
 SURFACE = "/world/surface"
@@ -23,12 +24,10 @@ SHADOW = "/world/shadow"
 
 SAND = 0xA79D78
 GRID = 0x857C60
-FOAM = 0x8FCFDF
 SPECK = 0xD8F4FF
 BLACK = 0x000000
 
 SAND_LOOK = Look(lit=False, both_sides=True)
-SURFACE_LOOK = Look(opacity=0.25, lit=False, both_sides=True)
 SHADOW_LOOK = Look(opacity=0.25, lit=False, both_sides=True)
 
 CELLS_PER_PERIOD = 10
@@ -82,11 +81,15 @@ def draw_floor(scale: SeaScale) -> list[Command]:
     return [set_object(sand, sand_json), set_object(grid, grid_json)]
 
 
-def draw_surface(scale: SeaScale) -> list[Command]:
+def draw_surface(scale: SeaScale, water: Surroundings) -> list[Command]:
     """The water's surface, to be placed at depth zero."""
-    sheet = _sheet(scale)
-    colors = rgb(FOAM) * _mottle(sheet, scale.period, depth=0.2)
-    return [set_object(SURFACE, surface(SURFACE, sheet, colors, SURFACE_LOOK))]
+    sheet, look = _sheet(scale), Look(opacity=water.surface_opacity, lit=False, both_sides=True)
+    colors = rgb(water.surface) * _mottle(sheet, scale.period, water.surface_patches)
+    drawn = surface(SURFACE, sheet, colors, look)
+    drawn["object"][
+        "renderOrder"
+    ] = -1  # before other things that can be seen through, which it must not cover
+    return [set_object(SURFACE, drawn)]
 
 
 def draw_shadow(shape: Shape) -> list[Command]:

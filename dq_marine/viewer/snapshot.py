@@ -17,7 +17,7 @@ from dq_marine.checks import finite_array, unit_quaternion
 from dq_marine.errors import InvalidInputError
 
 FloatArray = NDArray[np.float64]
-ShapeKind = Literal["open_frame", "torpedo", "ellipsoid"]
+ShapeKind = Literal["open_frame", "torpedo", "ellipsoid", "catamaran", "ship"]
 
 SNAPSHOT_ARRAYS = {
     "position_ned": 3,
@@ -114,7 +114,8 @@ class Shape:
         thrusters: drawn one by one; may be empty.
         max_force: force [N] at which the thrust arrow has its full length.
         kind: `open_frame` (a work-class or inspection ROV), `torpedo` (an AUV: a body of revolution with
-            fins) or `ellipsoid`.
+            fins), `ellipsoid`, or afloat `catamaran` or `ship`.
+        draft: depth of the keel below the origin [m]; None for half the height.
 
     Raises:
         InvalidInputError: a dimension or force that is not positive, or an unknown kind.
@@ -126,16 +127,29 @@ class Shape:
     thrusters: tuple[Thruster, ...] = ()
     max_force: float = 100.0
     kind: ShapeKind = "open_frame"
+    draft: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("length", "width", "height", "max_force"):
+        for name in ("length", "width", "height", "max_force", "draft"):
             value = getattr(self, name)
+            if name == "draft" and value is None:
+                continue
             if not (math.isfinite(value) and value > 0.0):
                 raise InvalidInputError(f"shape {name} is {value}; give a finite number above 0")
         if self.kind not in get_args(ShapeKind):
             raise InvalidInputError(
                 f"shape kind is {self.kind!r}; give one of {', '.join(get_args(ShapeKind))}"
             )
+
+    @property
+    def keel(self) -> float:
+        """Depth of the keel below the origin [m]."""
+        return 0.5 * self.height if self.draft is None else self.draft
+
+    @property
+    def floats(self) -> bool:
+        """Whether it is a kind of vessel that is at home on the surface."""
+        return self.kind in ("catamaran", "ship")
 
     @property
     def size(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from dq_marine.viewer import ellipsoid_model, open_frame_model, torpedo_model
+from dq_marine.viewer import catamaran_model, ellipsoid_model, open_frame_model, ship_model, torpedo_model
 from dq_marine.viewer.meshes import sphere
 from dq_marine.viewer.messages import Command, set_object
 from dq_marine.viewer.snapshot import Shape, ShapeKind
@@ -28,12 +28,16 @@ HULLS: dict[ShapeKind, Callable[[Shape], dict[str, list[Painted]]]] = {
     "open_frame": open_frame_model.open_frame_parts,
     "torpedo": torpedo_model.torpedo_parts,
     "ellipsoid": ellipsoid_model.ellipsoid_parts,
+    "catamaran": catamaran_model.catamaran_parts,
+    "ship": ship_model.ship_parts,
 }
 
 THRUSTER_RADII: dict[ShapeKind, Callable[[Shape], float]] = {
     "open_frame": open_frame_model.thruster_radius,
     "torpedo": torpedo_model.thruster_radius,
     "ellipsoid": ellipsoid_model.thruster_radius,
+    "catamaran": catamaran_model.thruster_radius,
+    "ship": ship_model.thruster_radius,
 }
 
 

@@ -11,8 +11,9 @@ from scipy.linalg import expm
 from support.bodies import make_body, random_damping, random_inertia
 from support.order import observed_order
 
+from dq_marine.damping_term import DampingTerm
 from dq_marine.kernel.body import kinetic_energy
-from dq_marine.terms import DampingTerm, inertia_term, spatial
+from dq_marine.terms import inertia_term, spatial
 
 M = np.diag([19.86, 20.0, 30.0, 0.4, 0.4, 0.6])
 LINEAR = np.diag([13.7, 1.0, 33.0, 0.1, 0.8, 0.1])

@@ -188,3 +188,12 @@ def test_never_a_nan(seed, log_size):
     assert np.isfinite(body.get_state()).all()
     assert np.isfinite(body.position_ned).all()
     assert np.isfinite(body.velocity_body).all()
+
+
+def test_a_new_body_is_where_reset_puts_it():
+    """At rest over ground, in a current too."""
+    body = Scene("bluerov2_heavy", current=(0.3, -0.2, 0.1)).stepper()
+    fresh = body.get_state()
+    body.reset()
+    assert np.array_equal(fresh, body.get_state())
+    assert np.abs(body.velocity_body).max() < 1e-15

@@ -8,6 +8,7 @@ import pytest
 from gymnasium.utils.env_checker import data_equivalence
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support.fleet import everything
 
 import dq_marine  # noqa: F401 - registers
 from dq_marine.envs.station_keeping import StationKeepingEnv
@@ -130,10 +131,15 @@ def test_flights_are_the_same_for_any_number_of_environments_and_threads(count, 
         {"reward": {"position": 0.1, "effort": 0.5, "attitude_width": 2.0}, "workspace_radius": 40.0, "current": 2.0},
         {"scheme": "paper"},
         {"vehicle": some_axes(), "start_radius": 5.0},
+        {"actuation": "thrusters"},
+        {"actuation": "thrusters", "vehicle": everything(), "current": 0.0},
         {"current": {"depths": (3.0, 5.0, 8.0), "velocities": ((0.5, 0.0), (0.2, 0.3), (-0.4, 0.0))}},
         {"current": {"mean": (0.1, 0.0, 0.0), "standard_deviation": 0.2, "correlation_time": 5.0}},
     ],
-    ids=["still water", "fixed current", "reward", "paper", "three axes", "profile", "Gauss-Markov"],
+    ids=[
+        "still water", "fixed current", "reward", "paper", "three axes", "thrusters", "actuators of every kind",
+        "profile", "Gauss-Markov",
+    ],
 )  # fmt: skip
 def test_flights_are_the_same_whatever_the_keywords(keywords):
     envs = gym.make_vec(ID, num_envs=5, **keywords)

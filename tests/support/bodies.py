@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from dq_marine.assembly import Assembly
+from dq_marine.damping_term import DampingTerm, StripTerm
 from dq_marine.engines.one_body import OneBody
-from dq_marine.terms import DampingTerm, WaterTerm, restoring_terms, uniform_water
+from dq_marine.kernel.coupled_damping import HEAVE_PLANE, SWAY_PLANE
+from dq_marine.kernel.cross_flow import StripRow
+from dq_marine.terms import WaterTerm, restoring_terms, uniform_water
 
 
 def random_inertia(rng, condition=20.0, coupled=True):
@@ -31,6 +34,17 @@ def random_quaternion(rng):
     return q / np.linalg.norm(q)
 
 
+def make_damping(mass_matrix, linear, quadratic, couplings=None, strips=(), l_stable=True):
+    """A `DampingTerm`; see `make_body`."""
+    terms = []
+    for plane, (coefficient, first, spacing, number) in strips:
+        side = 1.0 if plane == "sway" else -1.0
+        row = StripRow(coefficient, side * first, side * spacing)
+        terms.append(StripTerm(SWAY_PLANE if plane == "sway" else HEAVE_PLANE, row, number))
+    tensor = np.zeros((6, 6, 6)) if couplings is None else np.asarray(couplings, dtype=float)
+    return DampingTerm(linear, quadratic, mass_matrix, l_stable, tensor, tuple(terms))
+
+
 def make_body(
     mass_matrix,
     step,
@@ -39,20 +53,25 @@ def make_body(
     arm=(0.0, 0.0, 0.0),
     linear=None,
     quadratic=None,
+    couplings=None,
+    strips=(),
     current=(0.0, 0.0, 0.0),
     scheme="midpoint",
     order=2,
     l_stable=True,
     forces=(),
 ):
-    """A `OneBody` with any M, restoring, damping (Fossen's order), current and forces."""
+    """A `OneBody` with any M, restoring, damping (Fossen's order), current and forces.
+
+    Couplings are the tensor c_ijk, strips pairs (plane "sway" or "heave", (c, first x, spacing, number)).
+    """
     mass_matrix = np.asarray(mass_matrix, dtype=float)
     linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)
     quadratic = np.zeros(6) if quadratic is None else np.asarray(quadratic, dtype=float)
     assembly = Assembly(
         mass_matrix,
         (*restoring_terms(excess_weight, np.asarray(arm, dtype=float)), *forces),
-        DampingTerm(linear, quadratic, mass_matrix, l_stable),
+        make_damping(mass_matrix, linear, quadratic, couplings, strips, l_stable),
         current if isinstance(current, WaterTerm) else uniform_water(np.asarray(current, dtype=float)),
         scheme,
         order,

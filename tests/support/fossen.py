@@ -24,6 +24,18 @@ def coriolis(m, nu):
     return np.block([[zero, -skew(upper)], [-skew(upper), -skew(lower)]])
 
 
+def strip_drag(plane, coefficient, first, spacing, number, nu):
+    """Cross-flow drag of strips at x, of their own velocity across the hull: that of the water at r x (x, 0, 0)."""
+    drag = np.zeros(6)
+    for x in first + spacing * np.arange(number):
+        velocity = nu[:3] + np.cross(nu[3:], (x, 0.0, 0.0))
+        axis = 1 if plane == "sway" else 2
+        force = np.zeros(3)
+        force[axis] = coefficient * abs(velocity[axis]) * velocity[axis]
+        drag += np.concatenate([force, np.cross((x, 0.0, 0.0), force)])
+    return drag
+
+
 def solve(
     m,
     position,
@@ -35,6 +47,8 @@ def solve(
     arm=(0.0, 0.0, 0.0),
     linear=None,
     quadratic=None,
+    couplings=None,
+    strips=(),
     current=(0.0, 0.0, 0.0),
     wrench=(0.0,) * 6,
     rtol=1e-12,
@@ -45,6 +59,7 @@ def solve(
     inverse = np.linalg.inv(m)
     linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)
     quadratic = np.zeros(6) if quadratic is None else np.asarray(quadratic, dtype=float)
+    couplings = np.zeros((6, 6, 6)) if couplings is None else np.asarray(couplings, dtype=float)
     arm, current, wrench = (np.asarray(a, dtype=float) for a in (arm, current, wrench))
     start = Rotation.from_quat(np.roll(quaternion, -1)).as_matrix()
 
@@ -57,6 +72,9 @@ def solve(
         restoring = np.concatenate([excess_weight * down, np.cross(arm, down)])
         force = wrench + restoring - coriolis(m, relative) @ relative
         force = force - linear @ relative - quadratic * np.abs(relative) * relative
+        force = force - np.einsum("ijk,j,k->i", couplings, relative, np.abs(relative))
+        for plane, row in strips:
+            force = force - strip_drag(plane, *row, relative)
         # The water's velocity is constant in NED, hence turns in the body frame.
         turning = np.concatenate([-np.cross(nu[3:], water[:3]), np.zeros(3)])
         return np.concatenate([r @ nu[:3], (r @ skew(nu[3:])).ravel(), inverse @ force + turning])

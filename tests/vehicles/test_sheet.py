@@ -58,7 +58,7 @@ def test_turning_the_axes_about_x_changes_nothing():
 def test_a_deviation_of_the_integrated_motion_grows_at_the_rate():
     """A coupled, undamped, neutral torpedo at 1 m/s, held by the wrench that balances its steady motion."""
     content = load_vehicle("remus100").model_dump()
-    content["damping"] = content["damping"] | {"quadratic": (0.0,) * 6}
+    content["damping"] = content["damping"] | {"quadratic": (0.0,) * 6, "couplings": ()}
     content["rigid_body"] = content["rigid_body"] | {"center_of_mass": (0.0, 0.0, 0.0)}
     content["buoyancy"] = content["buoyancy"] | {"volume": 30.48 / 1030.0}
     vehicle = Vehicle.model_validate(content)
@@ -99,7 +99,7 @@ def test_the_largest_restoring_step_is_where_a_scene_refuses(name):
     limit = vehicle_sheet(load_vehicle(name)).restoring_step
     assert limit == pytest.approx(2.0 / restoring_frequencies(load_vehicle(name)).max())
     Scene(name, step=0.999 * limit)
-    with pytest.raises(InvalidInputError, match="too large for the restoring moment"):
+    with pytest.raises(InvalidInputError, match="too large for the restoring forces"):
         Scene(name, step=1.001 * limit)
 
 

@@ -1,0 +1,134 @@
+"""A vehicle's numbers, varied: one function for each table of a vehicle file."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.randomisation.congruence import (
+    drawn_coupling,
+    moments_of_inertia,
+    scaled_and_coupled,
+    second_moments,
+)
+from dq_marine.randomisation.distributions import AnyDistribution, drawn, drawn_for_each
+from dq_marine.randomisation.tables import (
+    AddedMassDraw,
+    BuoyancyDraw,
+    DampingDraw,
+    LimitsDraw,
+    RigidBodyDraw,
+)
+from dq_marine.vehicles import Vehicle
+from dq_marine.vehicles.model import RigidBody
+
+Array = NDArray[np.float64]
+Each = AnyDistribution | tuple[AnyDistribution, ...] | None
+Content = dict[str, Any]
+
+
+def varied_rigid_body(draw: RigidBodyDraw, body: RigidBody, rng: np.random.Generator) -> Content:
+    """Return the table of another body: heavier or lighter, its mass distributed otherwise."""
+    if draw == RigidBodyDraw():
+        return body.model_dump()
+    mass = body.mass * _factor(draw.mass, rng)
+    about_center = np.array(body.inertia) - _carried_inertia(body, body.mass, np.array(body.center_of_mass))
+    moments = second_moments(about_center)
+    if draw.inertia is None:
+        moments = moments * (mass / body.mass)
+    coupling = drawn_coupling(draw.inertia_coupling, 3, rng)
+    moments = scaled_and_coupled(moments, _factors(draw.inertia, 3, rng), coupling, np.sqrt(np.diag(moments)))
+    center = np.array(body.center_of_mass) + _offsets(draw.center_of_mass, rng)
+    inertia = moments_of_inertia(moments) + _carried_inertia(body, mass, center)
+    changed = {"mass": mass, "center_of_mass": center.tolist(), "inertia": inertia.tolist()}
+    return body.model_dump() | changed
+
+
+def varied_buoyancy(
+    draw: BuoyancyDraw, vehicle: Vehicle, rigid_body: Content, rng: np.random.Generator
+) -> Content:
+    """Return the table of other displaced water, for a body that is varied already."""
+    growth = rigid_body["mass"] / vehicle.rigid_body.mass
+    volume = vehicle.buoyancy.volume * _factor(draw.volume, rng)
+    if draw.net_weight is not None:
+        # (W' - B')/W' = (W - B)/W + share, with W' and B' in the ratios of mass and of volume
+        share = drawn(draw.net_weight, rng)
+        volume *= growth * (1.0 - share * vehicle.weight / vehicle.buoyant_force)
+    if draw.places_center:
+        # arm' = W' r_G' - B' r_B', solved for r_B'
+        arm = growth * _factor(draw.righting_lever, rng) * _rest_rotation(draw, rng) @ vehicle.restoring_arm
+        buoyant_force = vehicle.buoyant_force * volume / vehicle.buoyancy.volume
+        moment = vehicle.weight * growth * np.array(rigid_body["center_of_mass"])
+        center = (moment - arm) / buoyant_force
+    else:
+        center = np.array(vehicle.buoyancy.center) + _offsets(draw.center, rng)
+    return vehicle.buoyancy.model_dump() | {"volume": volume, "center": center.tolist()}
+
+
+def varied_added_mass(draw: AddedMassDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
+    """Return the entries of another added mass: its symmetric part, by a congruence."""
+    if draw == AddedMassDraw():
+        return {}
+    added = np.array(vehicle.added_mass)
+    scale = np.sqrt(np.diag(vehicle.mass_matrix))
+    coupling = drawn_coupling(draw.coupling, 6, rng)
+    varied = scaled_and_coupled(0.5 * (added + added.T), _factors(draw.factor, 6, rng), coupling, scale)
+    return {"added_mass": (0.5 * (varied + varied.T)).tolist(), "added_mass_asymmetry": 0.0}
+
+
+def varied_damping(draw: DampingDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
+    """Return the table of other damping, which takes energy as the vehicle's own does."""
+    changed: Content = {}
+    if draw.linear is not None or draw.linear_coupling > 0.0:
+        scale = np.sqrt(np.diag(vehicle.mass_matrix))
+        coupling = drawn_coupling(draw.linear_coupling, 6, rng)
+        factors = _factors(draw.linear, 6, rng)
+        changed["linear"] = scaled_and_coupled(vehicle.linear_damping, factors, coupling, scale).tolist()
+    if draw.quadratic is not None:
+        changed["quadratic"] = (vehicle.quadratic_damping * _factors(draw.quadratic, 6, rng)).tolist()
+    return vehicle.damping.model_dump() | changed
+
+
+def varied_limits(draw: LimitsDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
+    """Return the table of stronger or weaker actuators; an axis that is not actuated stays so."""
+    if draw.wrench is None:
+        return vehicle.limits.model_dump()
+    wrench = vehicle.wrench_limits * _factors(draw.wrench, 6, rng)
+    return vehicle.limits.model_dump() | {"wrench": wrench.tolist()}
+
+
+def _rest_rotation(draw: BuoyancyDraw, rng: np.random.Generator) -> Array:
+    """Return what turns "down" of an upright body into that of one with the drawn list and trim, shape (3, 3).
+
+    Both seen from the body: the transpose of R_y(trim) R_x(list), body to level.
+    """
+    roll, pitch = (
+        0.0 if angle is None else math.radians(drawn(angle, rng))
+        for angle in (draw.list_angle, draw.trim_angle)
+    )
+    across, ahead = (math.cos(roll), math.sin(roll)), (math.cos(pitch), math.sin(pitch))
+    turn_x = np.array([[1.0, 0.0, 0.0], [0.0, across[0], -across[1]], [0.0, across[1], across[0]]])
+    turn_y = np.array([[ahead[0], 0.0, ahead[1]], [0.0, 1.0, 0.0], [-ahead[1], 0.0, ahead[0]]])
+    return np.asarray((turn_y @ turn_x).T)
+
+
+def _carried_inertia(body: RigidBody, mass: float, center: Array) -> Array:
+    """Return what a mass at its centre adds to the inertia as the body's table has it, shape (3, 3)."""
+    if body.inertia_about == "center_of_mass":
+        return np.zeros((3, 3))
+    return np.asarray(mass * (center @ center * np.eye(3) - np.outer(center, center)))
+
+
+def _factor(distribution: AnyDistribution | None, rng: np.random.Generator) -> float:
+    return 1.0 if distribution is None else drawn(distribution, rng)
+
+
+def _factors(distributions: Each, size: int, rng: np.random.Generator) -> Array:
+    return np.ones(size) if distributions is None else drawn_for_each(distributions, size, rng)
+
+
+def _offsets(distributions: Each, rng: np.random.Generator) -> Array:
+    return np.zeros(3) if distributions is None else drawn_for_each(distributions, 3, rng)

@@ -1,0 +1,260 @@
+"""Drawn vehicles: physical whatever is drawn, within their ranges, the same for the same seed."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from dq_marine.errors import InvalidInputError
+from dq_marine.randomisation import Randomisation, randomisation_names, spread_of
+from dq_marine.randomisation.congruence import moments_of_inertia, scaled_and_coupled, second_moments
+from dq_marine.vehicles import Vehicle, load_vehicle, spheroid, vehicle_names
+
+VEHICLES = {name: load_vehicle(name) for name in vehicle_names()}
+vehicles = st.sampled_from(sorted(VEHICLES)).map(VEHICLES.get)
+seeds = st.integers(0, 2**32)
+
+
+def always(value):
+    """A distribution of one number."""
+    return {"uniform": (value, value)}
+
+
+def from_tables(**tables):
+    return Randomisation.model_validate(tables)
+
+
+def about_center_of_mass(vehicle):
+    """Moments of inertia about the centre of mass, from the rigid body's matrix."""
+    mass, (x, y, z) = vehicle.rigid_body.mass, vehicle.rigid_body.center_of_mass
+    s = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return vehicle.rigid_body_matrix[3:, 3:] + mass * s @ s
+
+
+def assert_physical(vehicle):
+    m = vehicle.mass_matrix
+    assert np.allclose(m, m.T, rtol=1e-12, atol=0.0)
+    assert np.linalg.eigvalsh(m).min() > 0.0
+    linear = vehicle.linear_damping
+    assert np.linalg.eigvalsh(linear + linear.T).min() >= -1e-9 * np.abs(linear).max()
+    assert (vehicle.quadratic_damping >= 0.0).all()
+    smallest, middle, largest = np.linalg.eigvalsh(about_center_of_mass(vehicle))
+    assert smallest > 0.0
+    assert largest <= (smallest + middle) * (1.0 + 1e-9)
+
+
+# Laws that hold for every draw
+
+
+@given(vehicles, st.sampled_from(randomisation_names()), seeds)
+def test_any_draw_of_any_vehicle_is_physical(vehicle, name, seed):
+    drawn = Randomisation.load(name).draw(vehicle, seed)
+    assert_physical(drawn)
+    assert Vehicle.model_validate(drawn.model_dump()) == drawn
+
+
+@st.composite
+def wide_randomisations(draw):
+    """Any tables that are accepted, with factors up to twice and half, and couplings."""
+
+    def factors():
+        low, high = sorted((draw(st.floats(0.5, 2.0)), draw(st.floats(0.5, 2.0))))
+        kind = draw(st.sampled_from(["uniform", "log_uniform", "normal"]))
+        if kind != "normal":
+            return {kind: (low, high)}
+        return {"normal": (draw(st.floats(low, high)), draw(st.floats(1e-3, 1.0))), "within": (low, high)}
+
+    coupling = st.floats(0.0, 0.15)
+    return from_tables(
+        rigid_body={
+            "mass": factors(),
+            "inertia": tuple(factors() for _ in range(3)),
+            "inertia_coupling": draw(coupling),
+            "center_of_mass": {"uniform": (-0.02, 0.02)},
+        },
+        buoyancy={"net_weight": {"uniform": (-0.1, 0.1)}, "center": {"uniform": (-0.02, 0.02)}},
+        added_mass={"factor": factors(), "coupling": draw(coupling)},
+        damping={"linear": factors(), "linear_coupling": draw(coupling), "quadratic": factors()},
+        limits={"wrench": factors()},
+    )
+
+
+@settings(deadline=None)
+@given(vehicles, wide_randomisations(), seeds)
+def test_any_randomisation_draws_physical_vehicles(vehicle, randomisation, seed):
+    drawn = randomisation.draw(vehicle, seed)
+    assert_physical(drawn)
+    assert ((drawn.wrench_limits > 0.0) == (vehicle.wrench_limits > 0.0)).all()
+    assert Randomisation.model_validate(randomisation.model_dump()) == randomisation
+
+
+@given(seeds, st.floats(0.0, 0.15))
+def test_a_congruence_keeps_the_signs_of_eigenvalues_and_dissipation(seed, coupling):
+    rng = np.random.default_rng(seed)
+    basis = rng.normal(size=(6, 6))
+    signs = rng.choice([-1.0, 1.0], 6)
+    matrix = basis @ np.diag(signs) @ basis.T
+    shear = rng.uniform(-coupling, coupling, (6, 6)) * (1.0 - np.eye(6))
+    arguments = (np.exp(rng.uniform(-1.0, 1.0, 6)), shear, np.exp(rng.uniform(-3.0, 3.0, 6)))
+    varied = scaled_and_coupled(matrix, *arguments)
+    eigenvalues = np.linalg.eigvalsh(0.5 * (varied + varied.T))
+    assert np.count_nonzero(eigenvalues > 0.0) == np.count_nonzero(signs > 0.0)
+    turning = basis - basis.T  # skew: takes no energy
+    power = scaled_and_coupled(turning, *arguments)
+    assert np.abs(power + power.T).max() <= 1e-12 * np.abs(power).max()
+
+
+@given(st.lists(st.tuples(*[st.floats(-2.0, 2.0)] * 3), min_size=4, max_size=10))
+def test_second_moments_are_those_of_the_points(points):
+    r = np.array(points)
+    inertia = sum(p @ p * np.eye(3) - np.outer(p, p) for p in r)
+    assert np.allclose(second_moments(inertia), r.T @ r, atol=1e-9)
+    assert np.allclose(moments_of_inertia(r.T @ r), inertia, atol=1e-9)
+
+
+# What each entry does
+
+
+@pytest.mark.parametrize("vehicle", VEHICLES.values(), ids=VEHICLES)
+def test_nothing_named_changes_nothing(vehicle):
+    assert Randomisation().draw(vehicle, 0) == vehicle
+
+
+@pytest.mark.parametrize("vehicle", VEHICLES.values(), ids=VEHICLES)
+def test_the_default_stays_within_its_ranges(vehicle):
+    own = about_center_of_mass(vehicle)
+    for drawn in Randomisation.load().pool(vehicle, 60):
+        assert 0.8 <= drawn.rigid_body.mass / vehicle.rigid_body.mass <= 1.2
+        assert (np.abs(np.diag(about_center_of_mass(drawn)) / np.diag(own) - 1.0) <= 0.2 + 1e-9).all()
+        added = np.diag(drawn.added_mass) / np.diag(vehicle.added_mass)
+        assert (added >= 0.5 - 1e-12).all()
+        assert (added <= 1.0 + 1e-12).all()
+        heavier = (drawn.weight - drawn.buoyant_force) / drawn.weight
+        assert abs(heavier - (vehicle.weight - vehicle.buoyant_force) / vehicle.weight) <= 0.01 + 1e-12
+        lever = np.linalg.norm(drawn.restoring_arm) / drawn.weight
+        ratio = lever / (np.linalg.norm(vehicle.restoring_arm) / vehicle.weight)
+        assert 0.5 - 1e-9 <= ratio <= 2.0 + 1e-9
+        assert drawn.dimensions == vehicle.dimensions
+
+
+def test_draws_fill_their_ranges():
+    masses = [
+        drawn.rigid_body.mass / 13.5 for drawn in Randomisation.load().pool(VEHICLES["bluerov2_heavy"], 400)
+    ]
+    counts, _ = np.histogram(masses, bins=4, range=(0.8, 1.2))
+    assert counts.sum() == 400
+    assert (np.abs(counts - 100) < 35).all()  # 4 standard deviations of a binomial's 8.7
+
+
+@pytest.mark.parametrize("name", ["remus100", "bluerov2_heavy"])
+def test_the_centre_of_mass_moves_with_the_inertia_about_it(name):
+    """Whether the file's inertia is about the body origin (REMUS 100) or the centre of mass (BlueROV2 Heavy)."""
+    vehicle = VEHICLES[name]
+    drawn = from_tables(rigid_body={"center_of_mass": always(0.01)}).draw(vehicle, 0)
+    assert np.allclose(np.subtract(drawn.rigid_body.center_of_mass, vehicle.rigid_body.center_of_mass), 0.01)
+    assert np.allclose(about_center_of_mass(drawn), about_center_of_mass(vehicle), rtol=1e-12)
+
+
+def test_inertia_follows_the_mass_unless_it_is_named():
+    vehicle = VEHICLES["rexrov"]
+    denser = from_tables(rigid_body={"mass": always(1.5)}).draw(vehicle, 0)
+    assert np.allclose(denser.rigid_body_matrix, 1.5 * vehicle.rigid_body_matrix, rtol=1e-12)
+    named = from_tables(rigid_body={"mass": always(1.5), "inertia": always(0.9)}).draw(vehicle, 0)
+    assert np.allclose(named.rigid_body.inertia, 0.9 * np.array(vehicle.rigid_body.inertia), rtol=1e-12)
+
+
+def test_added_mass_grows_by_the_root_of_both_factors():
+    vehicle = VEHICLES["rexrov"]
+    factors = (0.5, 0.6, 0.7, 0.8, 0.9, 1.1)
+    drawn = from_tables(added_mass={"factor": [always(factor) for factor in factors]}).draw(vehicle, 0)
+    symmetric = 0.5 * (np.array(vehicle.added_mass) + np.array(vehicle.added_mass).T)
+    assert np.allclose(drawn.added_mass, symmetric * np.sqrt(np.outer(factors, factors)), rtol=1e-12)
+
+
+def test_coupling_couples():
+    """What was diagonal is not any more, and no correlation is much larger than asked for."""
+    vehicle = VEHICLES["bluerov2_heavy"]
+    drawn = from_tables(added_mass={"coupling": 0.1}).draw(vehicle, 0)
+    scale = np.sqrt(np.diag(vehicle.mass_matrix))
+    correlations = (np.array(drawn.added_mass) / np.outer(scale, scale))[np.triu_indices(6, 1)]
+    assert (correlations != 0.0).all()
+    assert np.abs(correlations).max() < 0.3
+
+
+@given(vehicles, st.floats(0.8, 1.2), st.floats(-0.2, 0.2), seeds)
+def test_the_volume_follows_the_mass(vehicle, factor, share, seed):
+    tables = {"rigid_body": {"mass": always(factor)}, "buoyancy": {"net_weight": always(share)}}
+    drawn = from_tables(**tables).draw(vehicle, seed)
+    expected = (vehicle.weight - vehicle.buoyant_force) / vehicle.weight + share
+    assert (drawn.weight - drawn.buoyant_force) / drawn.weight == pytest.approx(expected, abs=1e-12)
+
+
+@given(vehicles, st.floats(0.5, 2.0), st.floats(-40.0, 40.0), st.floats(-40.0, 40.0))
+def test_a_vehicle_rests_with_the_drawn_list_and_trim(vehicle, lever, roll, pitch):
+    """Down, seen from the body at rest, is along W r_G - B r_B: no moment is left, and the attitude is stable."""
+    buoyancy = {"righting_lever": always(lever), "list_angle": always(roll), "trim_angle": always(pitch)}
+    mass = {"mass": {"uniform": (0.8, 1.2)}, "center_of_mass": {"uniform": (-0.02, 0.02)}}
+    drawn = from_tables(rigid_body=mass, buoyancy=buoyancy).draw(vehicle, 1)
+    down = Rotation.from_euler("ZYX", [30.0, pitch, roll], degrees=True).inv().apply([0.0, 0.0, 1.0])
+    own = np.linalg.norm(vehicle.restoring_arm) / vehicle.weight
+    assert np.allclose(drawn.restoring_arm / drawn.weight, lever * own * down, atol=1e-9 * own)
+
+
+# Reproducibility
+
+
+def test_a_seed_gives_the_same_vehicles():
+    vehicle, randomisation = VEHICLES["remus100"], Randomisation.load()
+    pool = randomisation.pool(vehicle, 5, seed=3)
+    assert randomisation.pool(vehicle, 3, seed=3) == pool[:3]
+    assert len({drawn.rigid_body.mass for drawn in (*pool, *randomisation.pool(vehicle, 5, seed=4))}) == 10
+    rng = np.random.default_rng(7)
+    first, second = randomisation.draw(vehicle, rng), randomisation.draw(vehicle, rng)
+    assert first != second
+    assert randomisation.draw(vehicle, 7) == first
+
+
+def test_a_vehicle_changed_in_code_is_taken():
+    vehicle = VEHICLES["bluerov2_heavy"]
+    limits = vehicle.limits.model_copy(update={"wrench": [50.0, 0.0, 50.0, 0.0, 0.0, 9.0]})
+    (drawn,) = Randomisation.load().pool(vehicle.model_copy(update={"limits": limits}), 1)
+    assert ((drawn.wrench_limits > 0.0) == (np.array(limits.wrench) > 0.0)).all()
+
+
+def test_a_vehicle_without_righting_moment_keeps_none():
+    drawn = Randomisation.load().draw(spheroid(0.5, 0.125), 0)
+    assert np.abs(drawn.restoring_arm).max() < 1e-12 * drawn.weight
+
+
+def test_the_spread_is_that_of_the_vehicles():
+    vehicle = VEHICLES["remus100"]
+    pool = Randomisation.load().pool(vehicle, 20)
+    spreads = {spread.name: spread for spread in spread_of(vehicle, pool)}
+    masses = [drawn.rigid_body.mass for drawn in pool]
+    spread = spreads["mass"]
+    assert (spread.nominal, spread.least, spread.largest) == (30.48, min(masses), max(masses))
+    assert spread.mean == pytest.approx(np.mean(masses))
+    assert "terminal speed in surge" in spreads
+    assert "terminal speed in sway" not in spreads  # not actuated
+
+
+# Refusals
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda r, v: r.pool(v, 0), "number of vehicles = 0 is below 1"),
+        (lambda r, v: r.pool(v, 10**6), "at most 100000"),
+        (lambda r, v: r.pool(v, 2, -1), "seed = -1; give a whole number of 0 or more"),
+        (lambda r, v: Randomisation.load(3), "is a int; give a name"),
+        (
+            lambda r, v: from_tables(buoyancy={"volume": always(0.02)}).draw(v, 0),
+            r"none of 100 draws .*\n.*mean density is 50\.4 times",
+        ),
+    ],
+)
+def test_bad_requests_are_refused(change, message):
+    with pytest.raises(InvalidInputError, match=message):
+        change(Randomisation.load(), VEHICLES["bluerov2_heavy"])

@@ -1,0 +1,86 @@
+"""The Otter against its published run, and against its published equations under other commands and in a current."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from support.otter import damping_diagonal, inertia_matrices, otter_run, restoring_matrix
+
+from dq_marine.scene import Scene
+from dq_marine.vehicles import load_vehicle
+
+RUN = np.loadtxt(Path(__file__).with_name("otter_turn.csv"), delimiter=",", skiprows=1)
+"""t, NED position, Euler angles, velocity, propeller speeds: both propellers stepped to 60 and 40 rad/s at 0."""
+
+PERIOD = 0.1
+SURGE, SWAY, YAW = 6, 7, 11
+
+
+def flown(commands, times, step=0.02, **scene):
+    """Return the product's run: positions, Euler angles, velocities and propeller speeds, a row for each time."""
+    stepper = Scene("otter", actuation="thrusters", step=step, **scene).stepper()
+    stepper.reset()
+    substeps = round(PERIOD / step)
+    rows = []
+    for t in np.arange(0.0, times[-1] + 0.5 * PERIOD, PERIOD):
+        if np.abs(times - t).min() < 0.5 * step:
+            rows.append(row(stepper))
+        stepper.actuate(commands(t), substeps)
+    return np.array(rows)
+
+
+def row(stepper):
+    q = stepper.quaternion_body_to_ned
+    psi, theta, phi = Rotation.from_quat(q, scalar_first=True).as_euler("ZYX")
+    return np.concatenate([stepper.position_ned, [phi, theta, psi], stepper.velocity_body])
+
+
+def deviations(mine, reference):
+    """Largest deviations over the reference's ranges: of surge, sway and yaw rate, and of the position."""
+    ranges = np.ptp(reference, axis=0)
+    velocities = np.abs(mine - reference)[:, [SURGE, SWAY, YAW]].max(axis=0) / ranges[[SURGE, SWAY, YAW]]
+    path = np.linalg.norm(ranges[:2])
+    return velocities, np.linalg.norm((mine - reference)[:, :2], axis=1).max() / path
+
+
+def test_the_published_run():
+    mine, reference = flown(lambda t: (60.0, 40.0), RUN[:, 0]), RUN[:, 1:13]
+    velocities, position = deviations(mine, reference)
+    assert (velocities < 0.01).all()
+    assert position < 0.02
+
+
+def test_the_published_matrices():
+    rigid, added = inertia_matrices()
+    otter = load_vehicle("otter")
+    assert np.allclose(otter.mass_matrix, rigid + added, rtol=1e-6, atol=1e-6)
+    assert np.allclose(np.diag(otter.linear_damping), damping_diagonal(), rtol=1e-6)
+    assert np.allclose(otter.waterplane_stiffness, restoring_matrix()[2:5, 2:5], rtol=1e-6)
+
+
+def wandering(t):
+    return 60.0 + 25.0 * np.sin(0.7 * t), 45.0 - 35.0 * np.sin(0.4 * t)
+
+
+def astern(t):
+    return -70.0, -50.0
+
+
+def spinning(t):
+    return 50.0, -50.0
+
+
+@pytest.mark.parametrize("commands", [wandering, astern, spinning])
+@pytest.mark.parametrize("current", [(0.0, 0.0, 0.0), (0.3, -0.4, 0.0)])
+def test_other_runs_and_a_current(commands, current):
+    times = np.arange(0.0, 40.01, 0.5)
+
+    def held(t):
+        return commands(PERIOD * np.floor(t / PERIOD + 1e-9))
+
+    reference = otter_run(held, times, current)[:, :12]
+    mine = flown(held, times, current=current)
+    velocities, position = deviations(mine, reference)
+    assert (velocities < 0.01).all()
+    assert position < 0.02
