@@ -28,7 +28,7 @@ from dq_marine.assembly import Assembly
 from dq_marine.damping_term import DampingTerm
 from dq_marine.engines.one_body import OneBody
 from dq_marine.errors import StepNotSolvableError
-from dq_marine.terms import angular_first
+from dq_marine.terms import angular_first, uniform_water
 from dq_marine.vehicles import load_vehicle
 
 Array = NDArray[np.float64]
@@ -112,7 +112,8 @@ def lie_map_run(
 def product_run(m: Array, velocity: Array, h: float, count: int, scheme: str) -> Array | None:
     """Return the attitude after `count` steps of one of the product's schemes; None if one had to be rescued."""
     zero = np.zeros(6)
-    assembly = Assembly(angular_first(m), (), DampingTerm(np.zeros((6, 6)), zero, m), np.zeros(3), scheme)
+    damping, water = DampingTerm(np.zeros((6, 6)), zero, m), uniform_water(np.zeros(3))
+    assembly = Assembly(angular_first(m), (), damping, water, scheme)
     body = OneBody(assembly.composition, assembly.parameters_at, h)
     body.reset(velocity_body=np.concatenate([velocity[3:], velocity[:3]]))
     try:

@@ -14,7 +14,6 @@ from dq_marine.damping_term import DampingTerm
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.actuation import NO_ACTUATION
 from dq_marine.kernel.composed import STAGES, ComposedTiming, make_composed
-from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent
 from dq_marine.kernel.extrapolated import ExtrapolatedTiming, make_extrapolated
 from dq_marine.kernel.kick import Kick
 from dq_marine.kernel.midpoint_drift import midpoint_drift, midpoint_rescue
@@ -22,7 +21,7 @@ from dq_marine.kernel.paper_drift import paper_drift, paper_rescue
 from dq_marine.kernel.richardson import RichardsonTiming, make_richardson
 from dq_marine.kernel.step import Advance, Composition, StepParameters
 from dq_marine.kernel.strang import make_strang
-from dq_marine.terms import ForceTerm, inertia_term, nested_parameters, vector3
+from dq_marine.terms import ForceTerm, WaterTerm, inertia_term, nested_parameters
 
 SCHEMES = {"midpoint": (midpoint_drift, midpoint_rescue), "paper": (paper_drift, paper_rescue)}
 """Schemes by name: the drift, and its rescue."""
@@ -53,7 +52,7 @@ class Assembly:
         mass_matrix: M in Fossen's order, symmetric positive definite, shape (6, 6).
         forces: those that are present.
         damping: may be zero.
-        current_ned: velocity of the water [m/s], shape (3,).
+        water: still or moving.
         scheme: one of `SCHEMES`.
         order: one of `ORDERS`.
         actuators: those that drive the body, if any.
@@ -62,7 +61,7 @@ class Assembly:
     mass_matrix: NDArray[np.float64]
     forces: tuple[ForceTerm, ...]
     damping: DampingTerm
-    current_ned: NDArray[np.float64]
+    water: WaterTerm
     scheme: str = "midpoint"
     order: int = 2
     actuators: ActuationTerm | None = None
@@ -86,8 +85,8 @@ class Assembly:
     @property
     def terms(self) -> tuple[str, ...]:
         """Names of what the step computes besides inertia and the control wrench."""
-        names = [*(force.name for force in self._present(0.0)), *self.damping.names]
-        return tuple(filter(None, [*names, "current" if self.current_ned.any() else ""]))
+        names = [*(force.name for force in self._present(0.0)), *self.damping.names, self.water.name]
+        return tuple(filter(None, names))
 
     @property
     def dissipation(self) -> str:
@@ -106,7 +105,7 @@ class Assembly:
             kick=self._method.kick,
             drift=drift,
             rescue=rescue,
-            water=MOVING_WATER if self.current_ned.any() else STILL_WATER,
+            water=self.water.water,
             actuation=NO_ACTUATION if self.actuators is None else self.actuators.actuation,
         )
 
@@ -119,7 +118,7 @@ class Assembly:
                 nested_parameters(self._pose_forces(step)),
                 nested_parameters(self._velocity_forces(step)),
             ),
-            water=UniformCurrent(vector3(self.current_ned)) if self.current_ned.any() else (),
+            water=self.water.parameters,
             timing=self._method.timing(step),
         )
 

@@ -15,6 +15,7 @@ import typer
 from dq_marine import __version__
 from dq_marine.command_basics import HELP_OPTIONS, Commands, console, examples
 from dq_marine.errors import InvalidInputError
+from dq_marine.manoeuvre_commands import app as manoeuvre_app
 from dq_marine.sea_commands import EXAMPLES as SEA_EXAMPLES
 from dq_marine.sea_commands import sea
 from dq_marine.vehicle_commands import app as vehicles_app
@@ -30,6 +31,7 @@ app = typer.Typer(
 )
 app.add_typer(vehicles_app, name="vehicles")
 app.command(epilog=SEA_EXAMPLES)(sea)
+app.add_typer(manoeuvre_app, name="manoeuvre")
 
 
 class Algorithm(StrEnum):

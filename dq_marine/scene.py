@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from dq_marine.actuators import ACTUATIONS, actuation_term
 from dq_marine.assembly import Assembly
-from dq_marine.checks import finite_array, finite_number
+from dq_marine.checks import finite_number
+from dq_marine.currents import CurrentLike, GaussMarkovCurrent, UniformCurrent, current_of, plain
 from dq_marine.damping_term import vehicle_damping
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.dual_quaternion import pose_from_parts
@@ -31,14 +32,14 @@ KICKS = ("l_stable", "implicit_node")
 
 
 class Scene:
-    """A vehicle in water of uniform steady current, with a scheme and a step.
+    """A vehicle in water, still or moving, with a scheme and a step.
 
     Everything is checked here, once. What the vehicle or the water lacks (current, damping, quadratic damping,
     net weight, righting moment, off-diagonal damping) is left out of the step: neither computed nor compiled.
 
     Attributes:
         vehicle: the validated vehicle.
-        current_ned: velocity of the water [m/s], shape (3,).
+        current: uniform and steady, or one that varies.
         step: step size h [s].
         kick: how damping is taken in.
         hydrostatics: how buoyancy is computed.
@@ -51,7 +52,7 @@ class Scene:
         self,
         vehicle: Vehicle | str | os.PathLike[str] = "bluerov2_heavy",
         *,
-        current: Sequence[float] | NDArray[np.float64] = (0.0, 0.0, 0.0),
+        current: CurrentLike = (0.0, 0.0, 0.0),
         scheme: str = "midpoint",
         step: float = 0.02,
         order: int = 2,
@@ -65,7 +66,8 @@ class Scene:
 
         Args:
             vehicle: a catalogue name, the path of a TOML file, or a `Vehicle`.
-            current: velocity of the water in NED, shape (3,) [m/s].
+            current: velocity of the water in NED, shape (3,) [m/s]; or a `dq_marine.currents.CurrentProfile` or
+                `GaussMarkovCurrent`, or a dictionary of its attributes.
             scheme: the drift: "midpoint", or "paper" for that of Xu & Halse.
             step: step size h [s]; negative runs time backwards, in a scene that takes no energy.
             order: of the method: 2 or 4, and 6 or 8 in a scene that takes no energy.
@@ -84,7 +86,7 @@ class Scene:
             VehicleFileError: the vehicle file is wrong.
         """
         self.vehicle = load_vehicle(vehicle)
-        self.current_ned = finite_array("current", current, 3)
+        self.current = current_of(current)
         self.step = finite_number("step", step)
         if kick not in KICKS:
             raise InvalidInputError(f"kick = {kick!r} is unknown; give one of {list(KICKS)}")
@@ -102,13 +104,12 @@ class Scene:
         of_weather = checked_forces(weather_terms(self.weather, self.vehicle, self.current_ned))
         present = (*restoring, *of_weather, *self.forces)
         actuators = actuation_term(self.vehicle) if actuation == "thrusters" else None
-        self._assembly = Assembly(
-            mass_matrix, present, damping, self.current_ned, scheme, order, actuators=actuators
-        )
+        water = self.current.term(self.vehicle)
+        self._assembly = Assembly(mass_matrix, present, damping, water, scheme, order, actuators=actuators)
         self._check_direction_of_time()
 
     def __repr__(self) -> str:
-        current = self.current_ned.tolist()
+        current = plain(self.current)
         terms = ", ".join(self.terms) or "nothing"
         return (
             f"Scene({self.vehicle.name!r}, current={current}, scheme={self.scheme!r}, step={self.step:g}, "
@@ -120,7 +121,7 @@ class Scene:
         """Travel as the arguments: a composition's functions are made anew where the scene arrives."""
         arguments = {
             "vehicle": self.vehicle,
-            "current": self.current_ned.tolist(),
+            "current": plain(self.current),
             "scheme": self.scheme,
             "step": self.step,
             "order": self.order,
@@ -131,6 +132,15 @@ class Scene:
             "actuation": self.actuation,
         }
         return _rebuild, (arguments,)
+
+    @property
+    def current_ned(self) -> NDArray[np.float64]:
+        """Velocity of the water [m/s], shape (3,): of a profile the uppermost, of a process the mean."""
+        if isinstance(self.current, UniformCurrent):
+            return np.array(self.current.velocity_ned)
+        if isinstance(self.current, GaussMarkovCurrent):
+            return np.array(self.current.mean)
+        return self.current.at(self.current.depths[0])
 
     @property
     def scheme(self) -> str:
@@ -183,7 +193,7 @@ class Scene:
                 reordered, with other rounding errors.
 
         Raises:
-            InvalidInputError: a value is wrong.
+            InvalidInputError: a value is wrong, or the current changes with time.
         """
         return batch_of([self], size, threads=threads, precision=precision, arithmetic=arithmetic)
 
@@ -243,13 +253,18 @@ def batch_of(
         arithmetic: see `Scene.batch`.
 
     Raises:
-        InvalidInputError: the scenes differ in their terms or step, or a value is wrong.
+        InvalidInputError: the scenes differ in their terms or step, a value is wrong, or a current changes with time.
     """
     from dq_marine.engines.actuated_batch import batch_type  # here: it imports Numba
 
     if not scenes or (size is not None and len(scenes) not in (1, size)):
         raise InvalidInputError(f"{len(scenes)} scenes for {size} bodies; give one, or one for each body")
     first = scenes[0]
+    if isinstance(first.current, GaussMarkovCurrent):
+        raise InvalidInputError(
+            f"current = {first.current}, but a batch has no control periods in which it could change; give a steady "
+            "one, or make environments with gym.make_vec"
+        )
     if any(scene.composition != first.composition or scene.step != first.step for scene in scenes):
         raise InvalidInputError(
             "the scenes of a batch differ in what they compute, or in their step; give scenes of equal terms, "

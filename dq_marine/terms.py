@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.kernel.branching import branching_pose_force, branching_velocity_force
+from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, UniformCurrent, Water
 from dq_marine.kernel.inertia import Inertia
 from dq_marine.kernel.matrix3 import Matrix3
 from dq_marine.kernel.restoring import NetWeight, RightingMoment, net_weight, righting_moment
@@ -100,6 +101,27 @@ def restoring_terms(excess_weight: float, arm: Array) -> tuple[ForceTerm, ...]:
 def nested_parameters(terms: tuple[ForceTerm, ...]) -> Any:
     """Return the terms' parameters as the step wants them: (first, (second, (..., ())))."""
     return nested([term.parameters for term in terms])
+
+
+class WaterTerm(NamedTuple):
+    """What the water does.
+
+    Attributes:
+        name: of the term; empty if the water is still.
+        water: the kernel's functions.
+        parameters: their numbers, nested tuples.
+    """
+
+    name: str
+    water: Water
+    parameters: Any
+
+
+def uniform_water(current_ned: Array) -> WaterTerm:
+    """Return water that moves with a velocity in NED [m/s], shape (3,): still water if that is zero."""
+    if not current_ned.any():
+        return WaterTerm("", STILL_WATER, ())
+    return WaterTerm("current", MOVING_WATER, UniformCurrent(vector3(current_ned)))
 
 
 def nested(items: Sequence[Any]) -> Any:

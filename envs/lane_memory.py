@@ -20,7 +20,7 @@ from dq_marine.engines.lane_period import CHOSEN_COLUMNS, PeriodArrays, PeriodLa
 from dq_marine.engines.lane_type import Lanes
 from dq_marine.engines.lanes import differing_fields
 from dq_marine.engines.one_body import AT_REST
-from dq_marine.engines.packing import pack, rebuild
+from dq_marine.engines.packing import pack, unpack
 from dq_marine.engines.pcg64 import STATE_WORDS
 from dq_marine.envs.episode import Episode
 
@@ -66,7 +66,8 @@ class LaneMemory:
         self.bodies = -(-n // lanes.width) * lanes.width
         self.arrays = self._arrays(first)
         self._like_parameters = parameters[0]
-        self._action_size = first.action_size
+        self._water_velocity = first.scene.composition.water.velocity
+        self._action_size = first.drive.size
         self.fill(self.layout.parameters, self.arrays.shared, self.arrays.parameters, parameters)
         self._own_aims = frozenset(own_aims)
         self.set_default_aims(aims)
@@ -116,16 +117,17 @@ class LaneMemory:
         """Return a copy of one environment's episode; its action is left at zero."""
         arrays, layout = self.arrays, self.layout
         parameters = self._read(layout.parameters, arrays.shared, arrays.parameters, index)
-        water = rebuild(self._like_parameters, iter(parameters.tolist())).water
+        state = self._read(layout.state, arrays.shared, arrays.states, index)
+        water = unpack(self._like_parameters, parameters).water
         return Episode(
             parameters=parameters,
             aim=self._read(layout.aim, arrays.shared_aim, arrays.aims, index),
-            state=self._read(layout.state, arrays.shared, arrays.states, index),
+            state=state,
             memory=self._read(layout.memory, arrays.shared, arrays.memories, index),
             action=np.zeros(self._action_size),
             observation=arrays.observations[index].copy(),
             measures=arrays.measures[:, index].copy(),
-            current_ned=np.array(water.velocity) if water else np.zeros(3),
+            current_ned=np.array(self._water_velocity(water, unpack(AT_REST, state).pose)),
             periods=int(arrays.periods[index]),
             vehicle=int(arrays.vehicles[index]),
             clock=float(arrays.clocks[index]),

@@ -25,7 +25,7 @@ class LaneSingles:
         first: the single environment that stands for all, or for the first.
         memory: of all.
         seeds: of the environments, None where there was none yet.
-        commands: actions of the last control period as the kernel takes them, shape (n, `MarineEnv.action_size`), not
+        commands: actions of the last control period as the kernel takes them, shape (n, `Drive.size`), not
             saturated.
         rescued: substeps that plain Newton did not solve, so far, shape (n,).
     """
@@ -38,7 +38,7 @@ class LaneSingles:
         self.first = singles[0]
         self.memory = LaneMemory(singles, n, lanes)
         self.seeds: list[int | None] = [None] * n
-        self.commands = np.zeros((n, self.first.action_size))
+        self.commands = np.zeros((n, self.first.drive.size))
         self.rescued = np.zeros(n, np.int64)
 
     def seed(self, seeds: Sequence[int | None], wanted: Sequence[int]) -> None:

@@ -6,6 +6,7 @@ import copy
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, ClassVar
 
 import gymnasium as gym
@@ -16,28 +17,22 @@ from numpy.typing import NDArray
 from dq_marine.checks import finite_number, positive_integer
 from dq_marine.engines.control_period import ACTION_NOT_FINITE, compiled_control_period
 from dq_marine.engines.packing import pack, structure_type, unpack
+from dq_marine.envs.beginning import begun_episode
+from dq_marine.envs.currents import EnvironmentCurrent, check_current, current_met, drawn_current, numbers_of
 from dq_marine.envs.drive import commanded, drive_of
 from dq_marine.envs.episode import Episode, restored_generator
 from dq_marine.envs.refusal import integration_report
-from dq_marine.envs.start import AT_ORIGIN, as_chosen, checked_options, drawn_speed_and_fixed_current
+from dq_marine.envs.start import as_chosen, at_origin, checked_options, drawn_uniforms
 from dq_marine.envs.vehicle_pool import FIXED_VEHICLE, VehicleDraw, prepared_pool
-from dq_marine.envs.view import EpisodeView
+from dq_marine.envs.view import EpisodeView, checked_render_mode
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.beginning import (
-    CLOCK_SPAN,
-    CURRENT_DRAWS,
-    CurrentDraw,
-    Drawn,
-    make_beginning,
-    make_draw,
-)
+from dq_marine.kernel.beginning import CLOCK_SPAN, Drawn, beginning_draws, make_draw
 from dq_marine.kernel.body import Motion
 from dq_marine.kernel.spatial import to_fossen
 from dq_marine.kernel.step import ACCEPTED, StepParameters, make_motion
-from dq_marine.kernel.task import Task
+from dq_marine.kernel.task import Task, draws_of_period
 from dq_marine.kernel.vector3 import dot
 from dq_marine.scene import Scene
-from dq_marine.terms import vector3
 from dq_marine.vehicles import Vehicle, load_vehicle
 from dq_marine.viewer.snapshot import Snapshot
 from dq_marine.weather import weather_of, weather_terms
@@ -50,7 +45,7 @@ Action = NDArray[np.float32]
 
 
 class MarineEnv(gym.Env[Observation, Action], ABC):
-    """One vehicle in a uniform current, driven by body thrust and torque, or by its thrusters.
+    """One vehicle in a current, driven by body thrust and torque, or by its thrusters.
 
     A task derives from it, names its kernel functions in `task` and says how goals and starts are drawn.
 
@@ -74,7 +69,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self,
         vehicle: Vehicle | str | os.PathLike[str],
         *,
-        current: float | Sequence[float],
+        current: EnvironmentCurrent,
         control_period: float,
         substeps: int,
         scheme: str,
@@ -85,30 +80,28 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         vehicle_draw: VehicleDraw = FIXED_VEHICLE,
     ) -> None:
         """Check and compose; see the tasks for the arguments."""
-        self.vehicle = load_vehicle(vehicle)
         self.control_period = finite_number("control_period", control_period, above=0.0)
         self.substeps = positive_integer("substeps", substeps)
         if self.substeps > MOST_SUBSTEPS:
             raise InvalidInputError(f"substeps = {self.substeps}; give at most {MOST_SUBSTEPS}")
-        self.current_speed, self.current_ned = drawn_speed_and_fixed_current(current)
-        self.current_draw = CurrentDraw(vector3(self.current_ned), self.current_speed)
-        largest = np.array([self.current_speed, 0.0, 0.0]) + self.current_ned
+        self.vehicle = load_vehicle(vehicle)
+        wanted, self.current_draw = drawn_current(current)
+        self.current_speed = self.current_draw.speed
         step = self.control_period / self.substeps
         self.weather = weather_of(weather)
         self.restless = any(part.changes for part in self.weather)
+        compose = partial(Scene, current=wanted, scheme=scheme, step=step, actuation=actuation)
 
         def scene_of(one: Vehicle) -> Scene:
-            forces = weather_terms(self.weather, one, self.current_ned)
-            return Scene(one, current=largest, scheme=scheme, step=step, actuation=actuation, forces=forces)
+            return compose(one, forces=weather_terms(self.weather, one, np.array(self.current_draw.fixed)))
 
-        self.pool = prepared_pool(vehicle_draw.vehicles(self.vehicle), scene_of, self.vehicle_aim)
+        numbers = partial(numbers_of, period=self.control_period)
+        vehicles = vehicle_draw.vehicles(self.vehicle)
+        self.pool = prepared_pool(vehicles, scene_of, numbers, self.vehicle_aim)
         self.scene = self.pool.scene
         self.drive = drive_of(self.scene)
-        self.task = self.drive.task(self.task)
-        modes = self.metadata["render_modes"]
-        if render_mode is not None and render_mode not in modes:
-            raise InvalidInputError(f"render_mode = {render_mode!r}; give None or one of {modes}")
-        self.render_mode = render_mode
+        self.task = self.drive.task(self.own_task())
+        self.render_mode = checked_render_mode(render_mode, self.metadata["render_modes"])
         self.record = bool(record)
         self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]
 
@@ -116,14 +109,18 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self.drive.places),), np.float32)
         self.observation_space = gym.spaces.Box(-bound, bound, dtype=np.float32)
         self.base_parameters = self.pool.parameters[0]
+        self._period_draws = len(pack(draws_of_period(self.scene.composition, self.task)))
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
         self._view = EpisodeView(self)
         self.substeps_rescued = 0
         self._episode: Episode | None = None
-        self._parameters = self.base_parameters
 
     # What a task adds
+
+    @abstractmethod
+    def own_task(self) -> Task:
+        """Return the task's formulas, whatever drives the vehicle."""
 
     @property
     @abstractmethod
@@ -169,12 +166,11 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         aim = self.new_aim(chosen)
         number = self.pool.drawn(self.np_random)
         aim = self.pool.fitted(aim, number)
-        uniforms = self.np_random.random(CURRENT_DRAWS + self.task.draws)
-        drawn = make_draw(self.task)(aim, self.current_draw, tuple(uniforms.tolist()))
+        uniforms = self.np_random.random(beginning_draws(self.task))
+        drawn = make_draw(self.scene.composition, self.task)(aim, self.current_draw, tuple(uniforms.tolist()))
         self._episode = self._new_episode(aim, as_chosen(drawn, chosen), number)
         if self.restless:
             self._episode.clock = CLOCK_SPAN * self.np_random.random()
-        self._parameters = self._parameters_in(self._episode)
         self._view.begin(self)
         begun = {"vehicle": number} if self.pool.has_choice else {}
         return self.observation, self._info() | {"current_ned": self._episode.current_ned.copy()} | begun
@@ -195,6 +191,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """
         episode = self._running("step")
         command = commanded(self.drive, action)
+        uniforms = drawn_uniforms(self.np_random, self._period_draws, command)
         status, completed, rescued, residual_squared, reward, terminated = self._compiled(
             episode.parameters,
             episode.aim,
@@ -205,6 +202,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
             episode.measures,
             episode.periods * self.control_period + episode.clock,
             self.substeps,
+            uniforms,
         )
         if status == ACTION_NOT_FINITE:
             raise InvalidInputError(
@@ -213,6 +211,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.substeps_rescued += rescued
         episode.action = command
         episode.periods += 1
+        episode.current_ned = current_met(self.scene, self.base_parameters, episode)
         info = self._info()
         if status != ACCEPTED:
             velocity = self.motion.velocity
@@ -302,7 +301,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """
         if not isinstance(state, dict) or "random" not in state:
             raise InvalidInputError("the state is not what get_state() returned: it has no entry 'random'")
-        template = self._new_episode(self.new_aim({}), AT_ORIGIN)
+        template = self._new_episode(self.new_aim({}), at_origin(self.task.sensing.first_draws))
         episode = template.restored({name: value for name, value in state.items() if name != "random"})
         self.pool.check_number(episode.vehicle)
         random = restored_generator(state["random"])
@@ -314,7 +313,6 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         self.np_random = random
         self._np_random_seed = seed
         self._episode = episode
-        self._parameters = self._parameters_in(episode)
 
     @property
     def episode(self) -> Episode:
@@ -335,16 +333,6 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """What each number of an action drives: axes such as "surge", or channels of the vehicle's actuators."""
         return self.drive.names
 
-    @property
-    def action_places(self) -> NDArray[np.intp]:
-        """Where the numbers of an action stand among the `action_size` that the kernel takes."""
-        return self.drive.places
-
-    @property
-    def action_size(self) -> int:
-        """How many numbers the kernel takes: six axes, or all channels."""
-        return self.drive.size
-
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what cannot travel: compiled code and open windows."""
         return {name: value for name, value in self.__dict__.items() if name not in _NOT_CARRIED}
@@ -353,7 +341,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         """Compile again (from the cache on disk) and start without a window."""
         self.__dict__.update(state)
         self.drive = drive_of(self.scene)
-        self.task = self.drive.task(type(self).task)
+        self.task = self.drive.task(self.own_task())
         self._motion = make_motion(self.scene.composition)
         self._compiled = self._compile()
         self._view = EpisodeView(self)
@@ -389,35 +377,22 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         return self._episode
 
     def _new_episode(self, aim: Any, drawn: Drawn, number: int = 0) -> Episode:
-        """Return an episode of one of the pool's vehicles at its start, by the same formulas that run compiled."""
-        parameters = self.pool.parameters[number]
-        begun = make_beginning(self.scene.composition, self.task)(parameters, aim, drawn)
-        return Episode(
-            parameters=pack(parameters._replace(water=begun.water)),
-            aim=pack(aim),
-            state=pack(begun.state),
-            memory=pack(begun.memory),
-            action=np.zeros(self.drive.size),
-            observation=pack(begun.observation).astype(np.float32),
-            measures=pack(begun.measures),
-            current_ned=np.array(drawn.current_ned),
-            vehicle=number,
-        )
+        parts = (self.scene.composition, self.task, self.pool.parameters[number], aim, drawn)
+        return begun_episode(*parts, number, self.drive.size)
 
     def _info(self) -> dict[str, Any]:
         numbers = self._running("info").measures.tolist()
         measures = dict(zip(self.task.measure_names, numbers, strict=True))
         return measures | {"is_success": self.succeeds(measures)}
 
-    def _parameters_in(self, episode: Episode) -> StepParameters:
-        """Return the step's parameters of an episode's vehicle in its current."""
-        x, y, z = episode.current_ned.tolist()
-        water = self.scene.composition.water.flow((x, y, z))
-        return self.pool.parameters[episode.vehicle]._replace(water=water)
+    @property
+    def _parameters(self) -> StepParameters:
+        """The numbers of the step of the episode in progress, its water included."""
+        return unpack(self.base_parameters, self._running("the parameters").parameters)  # type: ignore[no-any-return]
 
     def checked_options(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
         """Return reset's options as arrays."""
-        return checked_options(options, water_moves=bool(self.base_parameters.water))
+        return check_current(checked_options(options), self.scene)
 
 
 _NOT_CARRIED = ("_compiled", "_motion", "_view", "drive", "task")

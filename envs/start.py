@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.checks import finite_array, finite_number, unit_quaternion
+from dq_marine.checks import finite_array, unit_quaternion
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.beginning import Drawn
 from dq_marine.kernel.spatial import Spatial, from_fossen, to_fossen
@@ -18,10 +17,11 @@ START_OPTIONS = ("position", "quaternion", "velocity", "current", "goal_position
 """Keys of `reset`'s options, in NED and SI units; what is not given is drawn."""
 
 
-AT_ORIGIN = Drawn(
-    Start((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))), (0.0, 0.0, 0.0)
-)
-"""At the world's origin, at rest in still water."""
+def at_origin(sensing_draws: int) -> Drawn:
+    """Return a start at the world's origin, at rest in still water, with so many uniforms for the sensors."""
+    rest = Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    start = Start((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), rest)
+    return Drawn(start, (0.0, 0.0, 0.0), (0.0,) * sensing_draws)
 
 
 def as_chosen(drawn: Drawn, chosen: dict[str, NDArray[np.float64]]) -> Drawn:
@@ -36,32 +36,31 @@ def as_chosen(drawn: Drawn, chosen: dict[str, NDArray[np.float64]]) -> Drawn:
         name: tuple(chosen[name].tolist()) if name in chosen else value for name, value in drawn_start.items()
     }
     start = Start(values["position"], values["quaternion"], from_fossen(values["velocity"]))
-    return Drawn(start, values["current"])
+    return Drawn(start, values["current"], drawn.for_sensing)
 
 
-def checked_options(options: dict[str, Any] | None, *, water_moves: bool) -> dict[str, NDArray[np.float64]]:
+def drawn_uniforms(
+    random: np.random.Generator, count: int, command: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return uniform random numbers for a control period; none are drawn for a command that will be refused."""
+    return random.random(count) if count and np.isfinite(command).all() else np.zeros(count)
+
+
+def checked_options(options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
     """Return `reset`'s options as arrays.
 
     Args:
         options: as they came.
-        water_moves: whether the environment was made for a current.
 
     Raises:
-        InvalidInputError: a key is unknown or a value wrong, or there can be no current.
+        InvalidInputError: a key is unknown or a value wrong.
     """
     if options is None:
         return {}
     unknown = sorted(set(options) - set(START_OPTIONS))
     if unknown:
         raise InvalidInputError(f"options has unknown keys {unknown}; it takes {list(START_OPTIONS)}")
-    chosen = {name: _checked(name, value) for name, value in options.items()}
-    current = chosen.get("current")
-    if current is not None and current.any() and not water_moves:
-        raise InvalidInputError(
-            f"options['current'] = {current.tolist()}, but the environment was made without a current; make it with "
-            "current=<largest speed>"
-        )
-    return chosen
+    return {name: _checked(name, value) for name, value in options.items()}
 
 
 def _checked(name: str, value: Any) -> NDArray[np.float64]:
@@ -69,17 +68,3 @@ def _checked(name: str, value: Any) -> NDArray[np.float64]:
     if name.endswith("quaternion"):
         return unit_quaternion(label, value)
     return finite_array(label, value, 6 if name == "velocity" else 3)
-
-
-def drawn_speed_and_fixed_current(current: float | Sequence[float]) -> tuple[float, NDArray[np.float64]]:
-    """Return the largest speed to draw [m/s] and the fixed current in NED (3,); one of them is zero.
-
-    Raises:
-        InvalidInputError: neither a speed of 0 or more nor three finite numbers.
-    """
-    if np.ndim(current) > 0:
-        return 0.0, finite_array("current", current, 3)
-    speed = finite_number("current", current)
-    if speed < 0.0:
-        raise InvalidInputError(f"current = {speed:g} m/s; give a speed of 0 or more, or three components")
-    return speed, np.zeros(3)

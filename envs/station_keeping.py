@@ -15,14 +15,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.checks import finite_array, finite_number, unit_quaternion
+from dq_marine.envs.currents import EnvironmentCurrent
 from dq_marine.envs.marine_env import MarineEnv
 from dq_marine.envs.station_keeping_task import INTEGRAL_BOUND, SPEED_BOUND, TASK, Aim, Weights
 from dq_marine.envs.vector_env import DQMarineVectorEnv
 from dq_marine.envs.vehicle_pool import RandomisationChoice, VehicleDraw
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.quaternion import Quaternion
+from dq_marine.kernel.sensing import with_sensors
+from dq_marine.kernel.task import Task
 from dq_marine.kernel.vector3 import Vector3
 from dq_marine.randomisation import Randomisation
+from dq_marine.sensors import Sensors, nested_numbers, sensors_of, shown_bounds
 from dq_marine.vehicles import Vehicle, load_vehicle
 
 LARGEST_WORKSPACE = 1e4
@@ -89,20 +93,19 @@ class StationKeepingEnv(MarineEnv):
     pitch, yaw, over the vehicle's limits; or with `actuation="thrusters"` the commands of the n channels of its
     actuators in the order of `Vehicle.channels`, each over its limit on that side. Beyond the box it saturates.
 
-    Observation: see `station_keeping_task.observe`, 18 numbers in SI units. `info` has `position_error` [m],
+    Observation: see `station_keeping_task.observe`, 18 numbers in SI units; with `sensors` of the measured motion, and
+    followed by the age of each sensor's reading [s] (up to 60) and what else it shows. `info` has `position_error` [m],
     `attitude_error` [rad] and `is_success`; after a refused step also `integration`.
 
     An episode ends (terminated) beyond `workspace_radius` or at a refused step; `gym.make` truncates it after 300
     control periods, 30 s.
     """
 
-    task = TASK
-
     def __init__(
         self,
         vehicle: Vehicle | str | os.PathLike[str] = "bluerov2_heavy",
         *,
-        current: float | Sequence[float] | None = None,
+        current: EnvironmentCurrent | None = None,
         control_period: float = 0.1,
         substeps: int = 4,
         scheme: str = "midpoint",
@@ -112,6 +115,7 @@ class StationKeepingEnv(MarineEnv):
         goal_position: Sequence[float] | None = None,
         start_radius: float | None = None,
         workspace_radius: float | None = None,
+        sensors: Sensors = None,
         render_mode: str | None = None,
         record: bool = False,
         randomise: RandomisationChoice | None = None,
@@ -123,7 +127,8 @@ class StationKeepingEnv(MarineEnv):
         Args:
             vehicle: a catalogue name, the path of a TOML file, or a `Vehicle`.
             current: a speed [m/s]: each episode draws a horizontal current of up to it, of any direction; or
-                three numbers: this current in NED, always. None: up to what `randomise` says, else to 0.3 m/s.
+                three numbers: this current in NED, always; or a `dq_marine.currents.CurrentProfile` or
+                `GaussMarkovCurrent`, or a dictionary of its attributes. None: a speed, that of `randomise` or 0.3 m/s.
             control_period: time between actions [s].
             substeps: integrator steps in a control period.
             scheme: the integrator's drift, by name.
@@ -136,6 +141,8 @@ class StationKeepingEnv(MarineEnv):
             workspace_radius: episodes end beyond this distance from the goal [m]; None for 6 m, growing likewise.
             weather: seas and winds, as objects or dictionaries: see `dq_marine.weather.weather_of`. Where they change,
                 each episode begins at another time of theirs, which is drawn.
+            sensors: what the agent is told by, see `dq_marine.sensors`: "auv", a list of sensors, or a dictionary; None
+                for the motion as it is.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.
             randomise: let each episode fly another vehicle, drawn as a randomisation says: "default", the name of
@@ -165,6 +172,7 @@ class StationKeepingEnv(MarineEnv):
                 f"start_radius = {self.start_radius:g} m; give 0 or more and less than the workspace_radius, "
                 f"{self.workspace_radius:g} m"
             )
+        self.sensors = sensors_of(sensors)
         randomisation = None if randomise is None else Randomisation.load(randomise)
         draw = VehicleDraw(randomisation, vehicle_pool, vehicle_seed)
         super().__init__(
@@ -180,15 +188,21 @@ class StationKeepingEnv(MarineEnv):
             vehicle_draw=draw,
         )
 
+    def own_task(self) -> Task:
+        """Return the formulas, told by sensors if there are any."""
+        instruments = tuple(one.instrument for one in self.sensors)
+        return with_sensors(TASK, instruments) if instruments else TASK
+
     @property
     def observation_bound(self) -> NDArray[np.float32]:
-        """Largest magnitude of each observed number, shape (18,)."""
+        """Largest magnitude of each observed number, shape (18,) or more."""
         rotated_integral = math.sqrt(3.0) * INTEGRAL_BOUND
         bounds = [
             *[self.workspace_radius] * 3,
             *[1.0] * 6,
             *[SPEED_BOUND] * 6,
             *[rotated_integral * (1.0 + 1e-6)] * 3,
+            *shown_bounds(self.sensors),
         ]
         return np.array(bounds, dtype=np.float32)
 
@@ -213,6 +227,7 @@ class StationKeepingEnv(MarineEnv):
             weights=Weights(
                 **{field.name: float(getattr(self.reward, field.name)) for field in fields(self.reward)}
             ),
+            sensors=nested_numbers(self.sensors, self.control_period),
             **self.vehicle_aim(self.vehicle),
         )
 

@@ -63,6 +63,7 @@ class Aim(NamedTuple):
         wrench_limits: wrench at full action.
         axes: how many numbers the agent's action has.
         weights: of the reward.
+        sensors: their numbers, nested in pairs; see `kernel.sensing`.
     """
 
     position_ned: Vector3
@@ -74,6 +75,7 @@ class Aim(NamedTuple):
     wrench_limits: tuple[float, float, float, float, float, float]
     axes: float
     weights: Weights
+    sensors: Any
 
 
 class Memory(NamedTuple):

@@ -370,7 +370,7 @@ class DQMarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
                 total = float(given.sum())
         except (TypeError, ValueError) as error:
             raise InvalidInputError(f"actions = {actions!r} is not numeric") from error
-        places = self.single.action_places
+        places = self.single.drive.places
         shape = (self.num_envs, len(places))
         if given.shape != shape:
             raise InvalidInputError(f"actions have shape {given.shape}; give shape {shape}")

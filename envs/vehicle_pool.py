@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dq_marine.engines.lane_vehicles import PoolLayout, member_index
 from dq_marine.engines.packing import pack, structure_type
+from dq_marine.envs.currents import EnvironmentCurrent
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.step import StepParameters
 from dq_marine.randomisation import Randomisation
@@ -48,7 +49,7 @@ class VehicleDraw:
             return (vehicle,)
         return self.randomisation.pool(vehicle, self.size, self.seed)
 
-    def current_or_default(self, current: float | Sequence[float] | None) -> float | Sequence[float]:
+    def current_or_default(self, current: EnvironmentCurrent | None) -> EnvironmentCurrent:
         """Return the current that was asked for, else the randomisation's largest speed, else the default."""
         if current is not None:
             return current
@@ -116,6 +117,7 @@ class VehiclePool:
 def prepared_pool(
     vehicles: tuple[Vehicle, ...],
     scene_of: Callable[[Vehicle], Scene],
+    parameters_of: Callable[[Scene], StepParameters],
     vehicle_aim: Callable[[Vehicle], dict[str, Any]],
 ) -> VehiclePool:
     """Return vehicles with their numbers.
@@ -123,6 +125,7 @@ def prepared_pool(
     Args:
         vehicles: at least one.
         scene_of: what is integrated with a vehicle.
+        parameters_of: the numbers of its step.
         vehicle_aim: those of the task's parameters that are a vehicle's, by name.
 
     Raises:
@@ -136,7 +139,7 @@ def prepared_pool(
                 f"drawn vehicle {number} has the terms {list(scene.terms)}, vehicle 0 {list(first.terms)}; give "
                 "distributions under which no term of the one is zero in another"
             )
-    parameters = tuple(scene.parameters_at(scene.step) for scene in scenes)
+    parameters = tuple(map(parameters_of, scenes))
     fields = [vehicle_aim(vehicle) for vehicle in vehicles]
     aims = tuple(tuple(own.values()) for own in fields)
     rows = np.array([pack(member) for member in zip(parameters, aims, strict=True)])

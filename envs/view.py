@@ -44,6 +44,17 @@ def shape_of(vehicle: Vehicle) -> Shape:
     )
 
 
+def checked_render_mode(mode: str | None, known: list[str]) -> str | None:
+    """Return the mode.
+
+    Raises:
+        InvalidInputError: it is none of those known.
+    """
+    if mode is not None and mode not in known:
+        raise InvalidInputError(f"render_mode = {mode!r}; give None or one of {known}")
+    return mode
+
+
 def open_page(shape: Shape) -> LiveViewer:
     """Open a live page and say where it is."""
     from dq_marine.viewer.live import LiveViewer

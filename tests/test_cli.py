@@ -24,6 +24,8 @@ COMMANDS = [
     ["train"],
     ["report"],
     ["sea"],
+    ["manoeuvre"],
+    ["manoeuvre", "bluerov2", "zig-zag"],
     ["vehicles"],
     ["vehicles", "check"],
     ["vehicles", "sheet"],

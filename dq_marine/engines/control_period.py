@@ -13,10 +13,19 @@ from dq_marine.engines.compilation import compile_function
 from dq_marine.engines.one_body import AT_REST
 from dq_marine.engines.packing import make_load, store, structure_type
 from dq_marine.kernel.push import action_size
-from dq_marine.kernel.step import Composition
-from dq_marine.kernel.task import Task, make_control_period
+from dq_marine.kernel.step import Composition, StepParameters, in_water
+from dq_marine.kernel.task import Task, draws_of_period, make_control_period
 
 ACTION_NOT_FINITE = -1
+
+
+def keep_nothing(numbers: Any, parameters: StepParameters, water: Any) -> None:
+    """Leave the parameters: their water does not change by itself."""
+
+
+def keep_water(numbers: Any, parameters: StepParameters, water: Any) -> None:
+    """Store the parameters with the water of a control period's end."""
+    store(numbers, in_water(parameters, water))
 
 
 @functools.cache
@@ -29,17 +38,19 @@ def compiled_control_period(
 ) -> Callable[..., Any]:
     """Compile one control period on arrays.
 
-    The compiled function takes (parameters, aim, state, memory, action, observation, measures, time, steps),
-    all arrays float64 but the observation, float32. It saturates the action at -1 and 1, in place, or returns the
-    status ACTION_NOT_FINITE for a NaN or an infinity, and nothing is changed. It changes state, memory, observation and
-    measures as `kernel.task.PeriodOutcome` says. It returns (status, completed, rescued, residual_squared,
-    reward, terminated).
+    The compiled function takes (parameters, aim, state, memory, action, observation, measures, time, steps, uniforms),
+    all arrays float64 but the observation, float32; `uniforms` are `kernel.task.PeriodUniforms`, packed. It saturates
+    the action at -1 and 1, in place, or returns the status ACTION_NOT_FINITE for a NaN or an infinity, and nothing is
+    changed. It changes state, memory, observation, measures and, where the water changes by itself, the parameters as
+    `kernel.task.PeriodOutcome` says. It returns (status, completed, rescued, residual_squared, reward, terminated).
     """
     control_period = make_control_period(composition, task)
     load_parameters = make_load(step_layout)
     load_aim = make_load(aim_layout)
     load_memory = make_load(memory_layout)
     load_state = make_load(structure_type(AT_REST))
+    load_uniforms = make_load(structure_type(draws_of_period(composition, task)))
+    keep = keep_water if composition.water.draws else keep_nothing
     size = action_size(composition)
     load_action = make_load(types.UniTuple(types.float64, size))
 
@@ -53,21 +64,25 @@ def compiled_control_period(
         measures: Any,
         time: float,
         steps: int,
+        uniforms: Any,
     ) -> Any:
         for axis in range(size):
             if not math.isfinite(action[axis]):
                 return ACTION_NOT_FINITE, 0, 0, 0.0, 0.0, 0.0
             action[axis] = max(-1.0, min(1.0, action[axis]))
+        numbers = load_parameters(parameters)
         outcome = control_period(
-            load_parameters(parameters),
+            numbers,
             load_aim(aim),
             load_state(state),
             load_memory(memory),
             load_action(action),
             time,
             steps,
+            load_uniforms(uniforms),
         )
         step, verdict = outcome.step, outcome.verdict
+        keep(parameters, numbers, outcome.water)
         store(state, step.state)
         store(memory, outcome.memory)
         store(observation, outcome.observation)

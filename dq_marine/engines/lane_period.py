@@ -25,19 +25,18 @@ from dq_marine.engines.packing import make_load, structure_type
 from dq_marine.engines.pcg64 import next_uniform
 from dq_marine.kernel.beginning import (
     CLOCK_SPAN,
-    CURRENT_DRAWS,
     Beginning,
-    CurrentDraw,
     Drawn,
-    in_water,
+    beginning_draws,
     make_beginning,
     make_draw,
 )
+from dq_marine.kernel.current import CurrentDraw
 from dq_marine.kernel.push import action_size
 from dq_marine.kernel.selection import negation, select, select_call, some, spread
 from dq_marine.kernel.spatial import Spatial
-from dq_marine.kernel.step import ACCEPTED, Composition, StepParameters, make_motion
-from dq_marine.kernel.task import Start, Task, make_control_period
+from dq_marine.kernel.step import ACCEPTED, Composition, StepParameters, in_water, make_motion
+from dq_marine.kernel.task import PeriodUniforms, Start, Task, make_control_period
 from dq_marine.kernel.vector3 import dot
 
 
@@ -156,6 +155,7 @@ def as_chosen_in(chosen: Any, drawn: Drawn) -> Drawn:
     return Drawn(
         Start(choose3(chosen, 0, start.position_ned), attitude, velocity),
         choose3(chosen, 13, drawn.current_ned),
+        drawn.for_sensing,
     )
 
 
@@ -202,10 +202,11 @@ def make_time(layout: PeriodLayout, load_numbers: Callable[..., Any]) -> Callabl
 @functools.cache
 def make_begin_one(composition: Composition, task: Task, restless: bool) -> Callable[..., Any]:
     """Return (generators, clocks, chosen, currents, body, parameters, aim) -> (Beginning, current), for one body."""
-    draw, begin = make_draw(task), make_beginning(composition, task)
+    draw, begin = make_draw(composition, task), make_beginning(composition, task)
+    velocity = composition.water.velocity
     load_currents = make_load(structure_type(CurrentDraw((0.0, 0.0, 0.0), 0.0)))
     set_clock = draw_clock if restless else draw_no_clock
-    count = CURRENT_DRAWS + task.draws
+    count = beginning_draws(task)
     zeros = (0.0,) * count
 
     def begin_one(
@@ -222,9 +223,37 @@ def make_begin_one(composition: Composition, task: Task, restless: bool) -> Call
             uniforms = tuple_setitem(uniforms, index, next_uniform(generators[body]))
         set_clock(generators, clocks, body)
         drawn = as_chosen_in(chosen[body], draw(aim, load_currents(currents), uniforms))
-        return begin(parameters, aim, drawn), drawn.current_ned
+        begun = begin(parameters, aim, drawn)
+        return begun, velocity(begun.water, begun.state.pose)
 
     return begin_one
+
+
+def keep_nothing(blocks: Any, block: int, parameters: StepParameters) -> None:
+    """Leave the parameters: their water does not change by itself."""
+
+
+@functools.cache
+def make_lane_uniforms(for_water: int, for_sensing: int) -> Callable[..., PeriodUniforms]:
+    """Return (wanted, generators, bodies, like) -> uniform numbers for a control period, drawn where wanted."""
+    count = for_water + for_sensing
+    none = PeriodUniforms((), ())
+    zeros = (0.0,) * count
+
+    def draw_nothing(wanted: bool, generators: Any, bodies: int, like: float) -> PeriodUniforms:
+        return none
+
+    def draw_one(generators: Any, body: int) -> PeriodUniforms:
+        uniforms = zeros
+        for index in range(count):
+            uniforms = tuple_setitem(uniforms, index, next_uniform(generators[body]))
+        return PeriodUniforms(uniforms[:for_water], uniforms[for_water:])
+
+    def draw_lanes(wanted: bool, generators: Any, bodies: int, like: float) -> PeriodUniforms:
+        nothing = spread(PeriodUniforms(zeros[:for_water], zeros[for_water:]), like)
+        return select_call(wanted, draw_one, (generators, bodies), nothing)
+
+    return draw_lanes if count else draw_nothing
 
 
 @functools.cache
@@ -297,6 +326,8 @@ def compiled_period(
     control_period = make_control_period(composition, task)
     begin_one, motion_of = make_begin_one(composition, task, layout.restless), make_motion(composition)
     time_at = make_time(layout, load_numbers)
+    draw_uniforms = make_lane_uniforms(composition.water.draws, task.sensing.later_draws)
+    keep_water = store_parameters if composition.water.draws else keep_nothing
 
     def period_blocks(
         first: int,
@@ -315,10 +346,13 @@ def compiled_period(
             action = saturated(load_actions(actions, block))
             elapsed = load_numbers(arrays.periods, block)
             time = time_at(arrays.clocks, block, elapsed * period)
-            outcome = control_period(parameters, aim, state, memory, action, time, steps)
-            step, verdict = outcome.step, outcome.verdict
-
             idle = load_flags(arrays.ended, block)
+            bodies = lane_numbers(elapsed, block)
+            uniforms = draw_uniforms(negation(idle), arrays.generators, bodies, elapsed)
+            outcome = control_period(parameters, aim, state, memory, action, time, steps, uniforms)
+            step, verdict = outcome.step, outcome.verdict
+            keep_water(arrays.parameters, block, in_water(parameters, outcome.water))
+
             terminated = (verdict.terminated != 0.0) & negation(idle)
             elapsed = elapsed + 1.0
             truncated = (elapsed >= most_periods) & negation(idle)
@@ -329,20 +363,19 @@ def compiled_period(
             store_rows(arrays.truncated, block, truncated)
             store_rows(arrays.ended, block, waiting)
             store_rows(arrays.periods, block, select(renewed, 0.0, elapsed))
-            velocity = motion_of(parameters, step.state).velocity
+            velocity = motion_of(in_water(parameters, outcome.water), step.state).velocity
             spin, speed = dot(velocity.angular, velocity.angular), dot(velocity.linear, velocity.linear)
             report = (step.status, step.completed, step.rescued, step.residual_squared, spin, speed)
             store_outcome(arrays.outcomes, block, select(idle, (ACCEPTED, 0, 0, 0.0, 0.0, 0.0), report))
 
             begun = Beginning(
-                parameters.water, step.state, outcome.memory, outcome.observation, verdict.measures
+                outcome.water, step.state, outcome.memory, outcome.observation, verdict.measures
             )
             if some(ended):
                 store_rows(arrays.final_observations, block, outcome.observation)
                 store_columns(arrays.final_measures, block, verdict.measures)
             if some(renewed):
                 default_aim = load_aim(arrays.shared_aim, arrays.default_aims, block)
-                bodies = lane_numbers(verdict.reward, block)
                 parameters, default_aim = renew_vehicle(
                     renewed, arrays, block, bodies, parameters, default_aim
                 )

@@ -19,7 +19,6 @@ from dq_marine.engines.lane_rows import make_load_column, store_rows
 from dq_marine.engines.lane_type import Lanes
 from dq_marine.engines.packing import make_load
 from dq_marine.engines.pcg64 import next_uniform
-from dq_marine.kernel.beginning import in_water
 from dq_marine.kernel.selection import select_call
 from dq_marine.kernel.step import StepParameters
 
@@ -63,7 +62,7 @@ def make_renew_vehicle(pool: PoolLayout | None, lanes: Lanes) -> Callable[..., A
     def draw_vehicle(generators: Any, members: Any, body: int, parameters: StepParameters, aim: Any) -> Any:
         index = member_index(len(members), next_uniform(generators[body]))
         drawn, fields = load_member(members[index])
-        return float(index), in_water(drawn, parameters.water), replace(aim, fields)
+        return float(index), drawn, replace(aim, fields)
 
     def renew_vehicle(
         renewed: bool, arrays: Any, block: int, bodies: int, parameters: StepParameters, aim: Any

@@ -10,7 +10,7 @@ import numpy as np
 from numba import types
 from numpy.typing import ArrayLike, NDArray
 
-from dq_marine.checks import finite_array, positive_integer, unit_quaternion
+from dq_marine.checks import finite_array, finite_number, positive_integer, unit_quaternion
 from dq_marine.engines.compilation import compile_function
 from dq_marine.engines.packing import make_load, pack, store, structure_type, unpack
 from dq_marine.errors import InvalidInputError, StepNotSolvableError
@@ -25,10 +25,12 @@ from dq_marine.kernel.step import (
     WRONG_BRANCH,
     Composition,
     StepParameters,
+    in_water,
     make_advance,
     make_motion,
     make_placement,
 )
+from dq_marine.kernel.unsteady_current import UnsteadyCurrent, head_for, settled
 
 REFUSALS = {
     NOT_CONVERGED: "not_converged",
@@ -84,6 +86,7 @@ class OneBody:
         self._advance = self._compiled_advance()
         self._motion = make_motion(composition)
         self._state = pack(place_body(composition, self.parameters, np.zeros(3), UPRIGHT, np.zeros(6)))
+        self._beginning = self.parameters.water
         self.step_size = step
         self.time = 0.0
         self.steps_taken = self.newton_iterations = self.steps_rescued = 0
@@ -111,10 +114,40 @@ class OneBody:
         position = finite_array("position_ned", position_ned, 3)
         q = unit_quaternion("quaternion_body_to_ned", quaternion_body_to_ned)
         velocity = finite_array("velocity_body", velocity_body, 6)
-        state = pack(place_body(self._composition, self.parameters, position, q, velocity))
+        beginning = in_water(self.parameters, self._beginning)
+        state = pack(place_body(self._composition, beginning, position, q, velocity))
         check_momentum(state)
         self._state = state
+        self._set_water(self._beginning)
         self.time = 0.0
+
+    def change_current(self, velocity_ned: ArrayLike, duration: float) -> None:
+        """Let the current go linearly from what it is to another velocity, where it goes on changing as fast.
+
+        In a scene with a `dq_marine.currents.GaussMarkovCurrent`. Call it again at the end of `duration`. What it sets
+        is not part of `get_state`; `reset` undoes it.
+
+        Args:
+            velocity_ned: of the water after `duration`, shape (3,) [m/s].
+            duration: in which it gets there [s].
+
+        Raises:
+            InvalidInputError: a value is wrong, or the scene has another current; nothing is changed.
+        """
+        velocity = finite_array("velocity_ned", velocity_ned, 3)
+        span = finite_number("duration", duration, above=0.0)
+        water = self.parameters.water
+        if not isinstance(water, UnsteadyCurrent):
+            raise InvalidInputError(
+                "the scene's current does not change; make it with current=GaussMarkovCurrent(...)"
+            )
+        x, y, z = velocity.tolist()
+        self._set_water(head_for(water, (x, y, z), self.time, span))
+
+    def _set_water(self, water: Any) -> None:
+        if water is not self.parameters.water:
+            self.parameters = in_water(self.parameters, water)
+            self._numbers = pack(self.parameters)
 
     def step(self, wrench_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), steps: int = 1) -> None:
         """Advance by `steps` steps under a constant wrench.
@@ -218,7 +251,15 @@ class OneBody:
     @property
     def velocity_body(self) -> NDArray[np.float64]:
         """Velocity over ground nu, Fossen's order [m/s, rad/s], shape (6,)."""
-        return np.array(to_fossen(self._motion(self.parameters, self.state).velocity))
+        return np.array(to_fossen(self._motion(self._parameters_now, self.state).velocity))
+
+    @property
+    def _parameters_now(self) -> StepParameters:
+        """The scene's numbers, with the water as it is now."""
+        water = self.parameters.water
+        if not isinstance(water, UnsteadyCurrent):
+            return self.parameters
+        return in_water(self.parameters, settled(water, self.time))
 
     @property
     def kinetic_energy(self) -> float:

@@ -16,6 +16,7 @@ from dq_marine.kernel.task import Task
 def with_actuators(task: Task, actuation: Actuation) -> Task:
     """Return the task for a composition with this actuation; episodes begin with its channels at rest."""
     forget_task, remember_task, observe_task = task.forget, task.remember, task.observe
+    first_reading, later_reading = task.sensing.first, task.sensing.later
     rest = actuation.rest
 
     def forget(aim: Any) -> ActuatedMemory:
@@ -27,4 +28,11 @@ def with_actuators(task: Task, actuation: Actuation) -> Task:
     def observe(aim: Any, memory: ActuatedMemory, motion: Motion) -> Any:
         return observe_task(aim, memory.task, motion)
 
-    return dataclasses.replace(task, forget=forget, remember=remember, observe=observe)
+    def read_first(aim: Any, memory: ActuatedMemory, motion: Motion, uniforms: Any) -> ActuatedMemory:
+        return ActuatedMemory(first_reading(aim, memory.task, motion, uniforms), memory.values)
+
+    def read_later(aim: Any, memory: ActuatedMemory, motion: Motion, uniforms: Any) -> ActuatedMemory:
+        return ActuatedMemory(later_reading(aim, memory.task, motion, uniforms), memory.values)
+
+    sensing = task.sensing._replace(first=read_first, later=read_later)
+    return dataclasses.replace(task, forget=forget, remember=remember, observe=observe, sensing=sensing)

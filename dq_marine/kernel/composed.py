@@ -91,7 +91,7 @@ def make_composed(composition: Composition) -> Advance:
         progress = set_out(state)
         for step in range(steps):
             for stage in range(len(stages)):
-                flown = fly(parameters, stages[stage], pose, momentum, progress.under_way)
+                flown = fly(parameters, node, stages[stage], pose, momentum, progress.under_way)
                 progress = progress_with(progress, flown)
                 if not some(progress.under_way):
                     return arrival(state, pose, momentum, progress)

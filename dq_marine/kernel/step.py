@@ -76,6 +76,11 @@ class StepParameters(NamedTuple):
     timing: Any
 
 
+def in_water(parameters: StepParameters, water: Any) -> StepParameters:
+    """Return the parameters in other water."""
+    return StepParameters(parameters.inertia, parameters.damping, parameters.forces, water, parameters.timing)
+
+
 class StepOutcome(NamedTuple):
     """Where the body is and how the solver fared.
 
@@ -126,22 +131,31 @@ class Flown(NamedTuple):
 
 def make_flight(
     composition: Composition,
-) -> Callable[[StepParameters, float, DualQuaternion, Spatial, bool], Flown]:
-    """Return (parameters, h, pose, momentum, wanted) -> the drift over h in the moving water, rescued where need be.
+) -> Callable[[StepParameters, float, float, DualQuaternion, Spatial, bool], Flown]:
+    """Return (parameters, time, h, pose, momentum, wanted) -> the drift over h from `time` on in the moving water.
 
-    What is not `wanted` is not rescued: a body that has been refused before.
+    It is rescued where need be. What is not `wanted` is not: a body that has been refused before.
     """
-    drift, rescue, carry = composition.drift, composition.rescue, composition.water.carry
+    drift, rescue, water = composition.drift, composition.rescue, composition.water
+    depart, arrive = water.depart, water.arrive
 
     def fly(
-        parameters: StepParameters, h: float, pose: DualQuaternion, momentum: Spatial, wanted: bool
+        parameters: StepParameters,
+        time: float,
+        h: float,
+        pose: DualQuaternion,
+        momentum: Spatial,
+        wanted: bool,
     ) -> Flown:
-        outcome = drift(parameters.inertia, h, pose, momentum)
+        inertia = parameters.inertia
+        start = depart(parameters.water, inertia, time, h, pose, momentum)
+        outcome = drift(inertia, h, start.pose, start.momentum)
         lost = wanted & negation(drift_accepted(outcome[2]))
         if some(lost):
-            outcome = select_call(lost, rescue, (parameters.inertia, h, pose, momentum), outcome)
+            outcome = select_call(lost, rescue, (inertia, h, start.pose, start.momentum), outcome)
         moved, transported, report = outcome
-        return Flown(carry(parameters.water, h, moved), transported, report, lost)
+        end = arrive(parameters.water, inertia, time, h, moved, transported)
+        return Flown(end.pose, end.momentum, report, lost)
 
     return fly
 

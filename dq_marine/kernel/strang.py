@@ -50,7 +50,7 @@ def make_strang(composition: Composition) -> Advance:
         momentum = kick(forces, damping, inertia, timing.opening, pose, state.momentum, time, wrench)
         progress = set_out(state)
         for step in range(steps):
-            flown = fly(parameters, timing.h, pose, momentum, progress.under_way)
+            flown = fly(parameters, time + step * timing.h, timing.h, pose, momentum, progress.under_way)
             progress = progress_by_step(progress_with(progress, flown))
             if not some(progress.under_way):
                 break

@@ -2,7 +2,7 @@
 
 The functions of a task take its parameters first and return tuples of numbers, like the rest of the kernel, so
 that an environment's formulas stand in one place whether they run in plain Python, compiled for one body, or in
-lanes. One control period is: act, advance, remember, then observe and judge.
+lanes. One control period is: act, advance, sense, remember, then observe and judge.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from dq_marine.kernel.step import (
     Composition,
     StepOutcome,
     StepParameters,
+    in_water,
     make_motion,
 )
 from dq_marine.kernel.vector3 import Vector3
@@ -48,6 +49,30 @@ class Start(NamedTuple):
     velocity: Spatial
 
 
+def sense_nothing(aim: Any, memory: Any, motion: Motion, uniforms: Any) -> Any:
+    """Return the memory: the task has no sensors, and knows the motion as it is."""
+    return memory
+
+
+class Sensing(NamedTuple):
+    """What a task's sensors do; both functions are (parameters, memory, motion, uniforms) -> memory.
+
+    Attributes:
+        first: what they read at an episode's start.
+        first_draws: how many uniform random numbers in [0, 1) that takes.
+        later: what they read at the end of a control period.
+        later_draws: how many that takes.
+    """
+
+    first: Callable[[Any, Any, Motion, Any], Any]
+    first_draws: int
+    later: Callable[[Any, Any, Motion, Any], Any]
+    later_draws: int
+
+
+NO_SENSORS = Sensing(sense_nothing, 0, sense_nothing, 0)
+
+
 @dataclass(frozen=True)
 class Task:
     """The functions of a task.
@@ -63,6 +88,7 @@ class Task:
         judge: (parameters, motion, sum of squares of the action) -> Verdict.
         measure_names: names of the verdict's measures.
         episode_fields: of the parameters, those that may differ between episodes.
+        sensing: what sensors do to the memory.
     """
 
     draws: int
@@ -74,6 +100,14 @@ class Task:
     judge: Callable[[Any, Motion, float], Verdict]
     measure_names: tuple[str, ...]
     episode_fields: tuple[str, ...]
+    sensing: Sensing = NO_SENSORS
+
+
+class PeriodUniforms(NamedTuple):
+    """Uniform random numbers in [0, 1) for one control period: for the water, and for the task's sensors."""
+
+    water: tuple[float, ...]
+    sensing: tuple[float, ...]
 
 
 class PeriodOutcome(NamedTuple):
@@ -83,15 +117,26 @@ class PeriodOutcome(NamedTuple):
     """
 
     step: StepOutcome
+    water: Any
     memory: Any
     observation: Any
     verdict: Verdict
 
 
+def no_choice(condition: bool, chosen: Any, otherwise: Any) -> Any:
+    """Return `chosen`, from which `otherwise` does not differ."""
+    return chosen
+
+
+def draws_of_period(composition: Composition, task: Task) -> PeriodUniforms:
+    """Return zeros for the uniform random numbers that a control period takes."""
+    return PeriodUniforms((0.0,) * composition.water.draws, (0.0,) * task.sensing.later_draws)
+
+
 def make_control_period(
     composition: Composition, task: Task
-) -> Callable[[StepParameters, Any, BodyState, Any, Any, float, int], PeriodOutcome]:
-    """Return (parameters, task parameters, state, memory, action, time, steps) -> outcome: one control period.
+) -> Callable[[StepParameters, Any, BodyState, Any, Any, float, int, PeriodUniforms], PeriodOutcome]:
+    """Return (parameters, task parameters, state, memory, action, time, steps, uniforms) -> outcome.
 
     Where the composition has actuators, the task must be made by `with_actuators`.
     """
@@ -99,7 +144,8 @@ def make_control_period(
         make_actuators_push(composition) if composition.actuation.channels else make_push(composition, task)
     )
     motion_of, sum_of_squares = make_motion(composition), make_sum_of_squares(action_size(composition))
-    remember, observe, judge = task.remember, task.observe, task.judge
+    sense, remember, observe, judge = task.sensing.later, task.remember, task.observe, task.judge
+    evolve, choose_water = composition.water.evolve, select if composition.water.draws else no_choice
 
     def control_period(
         parameters: StepParameters,
@@ -109,16 +155,21 @@ def make_control_period(
         action: Any,
         time: float,
         steps: int,
+        uniforms: PeriodUniforms,
     ) -> PeriodOutcome:
-        step, pushed = push(parameters, aim, state, memory, action, time, steps)
+        moving = evolve(parameters.water, time, uniforms.water)
+        step, pushed = push(in_water(parameters, moving), aim, state, memory, action, time, steps)
         taken = step.status == ACCEPTED
-        motion = motion_of(parameters, step.state)
-        memory_after = select(taken, remember(aim, pushed, motion), memory)
+        water = choose_water(taken, moving, parameters.water)
+        motion = motion_of(in_water(parameters, water), step.state)
+        sensed = sense(aim, pushed, motion, uniforms.sensing)
+        memory_after = select(taken, remember(aim, sensed, motion), memory)
         verdict = judge(aim, motion, sum_of_squares(action))
         reward = select(taken, verdict.reward, 0.0)
         terminated = select(taken, verdict.terminated, 1.0)
         return PeriodOutcome(
             step,
+            water,
             memory_after,
             observe(aim, memory_after, motion),
             Verdict(reward, terminated, verdict.measures),

@@ -43,7 +43,7 @@ def second_moments(inertia: Array) -> Array:
     """Return the second moments of mass, the integral of r r^T dm, of moments of inertia, both of shape (3, 3).
 
     I = tr(S) 1 - S: the principal moments of I obey the triangle inequalities exactly where S is positive semidefinite;
-    what round-off in a vehicle file leaves below zero becomes zero.
+    what a vehicle file leaves below zero, by round-off or as published, becomes zero.
     """
     moments = 0.5 * np.trace(inertia) * np.eye(3) - inertia
     values, axes = np.linalg.eigh(moments)

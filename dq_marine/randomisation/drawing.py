@@ -16,10 +16,10 @@ from dq_marine.randomisation.congruence import (
 )
 from dq_marine.randomisation.distributions import AnyDistribution, drawn, drawn_for_each
 from dq_marine.randomisation.tables import (
+    ActuatorsDraw,
     AddedMassDraw,
     BuoyancyDraw,
     DampingDraw,
-    LimitsDraw,
     RigidBodyDraw,
 )
 from dq_marine.vehicles import Vehicle
@@ -50,7 +50,9 @@ def varied_rigid_body(draw: RigidBodyDraw, body: RigidBody, rng: np.random.Gener
 def varied_buoyancy(
     draw: BuoyancyDraw, vehicle: Vehicle, rigid_body: Content, rng: np.random.Generator
 ) -> Content:
-    """Return the table of other displaced water, for a body that is varied already."""
+    """Return the tables of other displaced water, for a body that is varied already."""
+    if vehicle.hydrostatics is not None:
+        return varied_flotation(draw, vehicle, rigid_body, rng)
     growth = rigid_body["mass"] / vehicle.rigid_body.mass
     volume = vehicle.buoyancy.volume * _factor(draw.volume, rng)
     if draw.net_weight is not None:
@@ -65,7 +67,30 @@ def varied_buoyancy(
         center = (moment - arm) / buoyant_force
     else:
         center = np.array(vehicle.buoyancy.center) + _offsets(draw.center, rng)
-    return vehicle.buoyancy.model_dump() | {"volume": volume, "center": center.tolist()}
+    return {
+        "buoyancy": vehicle.buoyancy.model_dump() | {"volume": volume, "center": center.tolist()},
+        "hull": _widened_hull(vehicle, volume / vehicle.buoyancy.volume),
+    }
+
+
+def varied_flotation(
+    draw: BuoyancyDraw, vehicle: Vehicle, rigid_body: Content, rng: np.random.Generator
+) -> Content:
+    """Return the tables of another vessel that floats: as much wider as heavier, level, with other metacentric heights.
+
+    It displaces its weight and its stiffness is given, so net weight, volume, centre, list and trim do not apply.
+    """
+    growth = rigid_body["mass"] / vehicle.rigid_body.mass
+    righting = _factor(draw.righting_lever, rng)
+    hydrostatics = vehicle.model_dump(include={"hydrostatics"})["hydrostatics"]
+    if hydrostatics["stiffness"] is None:
+        for name in ("metacentric_height_transverse", "metacentric_height_longitudinal"):
+            hydrostatics[name] *= righting
+    else:
+        scale = np.sqrt([1.0, righting, righting])
+        hydrostatics["stiffness"] = (np.array(hydrostatics["stiffness"]) * np.outer(scale, scale)).tolist()
+    buoyancy = vehicle.buoyancy.model_dump() | {"volume": growth * vehicle.buoyancy.volume}
+    return {"buoyancy": buoyancy, "hydrostatics": hydrostatics, "hull": _widened_hull(vehicle, growth)}
 
 
 def varied_added_mass(draw: AddedMassDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
@@ -80,24 +105,62 @@ def varied_added_mass(draw: AddedMassDraw, vehicle: Vehicle, rng: np.random.Gene
 
 
 def varied_damping(draw: DampingDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
-    """Return the table of other damping, which takes energy as the vehicle's own does."""
+    """Return the tables of other damping and cross-flow drag, which take energy as the vehicle's own do."""
     changed: Content = {}
     if draw.linear is not None or draw.linear_coupling > 0.0:
         scale = np.sqrt(np.diag(vehicle.mass_matrix))
         coupling = drawn_coupling(draw.linear_coupling, 6, rng)
         factors = _factors(draw.linear, 6, rng)
         changed["linear"] = scaled_and_coupled(vehicle.linear_damping, factors, coupling, scale).tolist()
+    cross_flow = [strips.model_dump() for strips in vehicle.cross_flow]
     if draw.quadratic is not None:
-        changed["quadratic"] = (vehicle.quadratic_damping * _factors(draw.quadratic, 6, rng)).tolist()
-    return vehicle.damping.model_dump() | changed
+        factors = _factors(draw.quadratic, 6, rng)
+        changed["quadratic"] = (vehicle.quadratic_damping * factors).tolist()
+        changed["couplings"] = [
+            # |nu_k| Q_k becomes |nu_k| S Q_k S: a congruence, as that of the linear part
+            coupling.model_dump()
+            | {"coefficient": coupling.coefficient * _root(factors, *coupling.indices[:2])}
+            for coupling in vehicle.damping.couplings
+        ]
+        for strips, own in zip(cross_flow, vehicle.cross_flow, strict=True):
+            across = factors[1 if own.plane == "sway" else 2]
+            strips |= {"drag_coefficient": own.section_drag * across, "beam": None}
+    return {"damping": vehicle.damping.model_dump() | changed, "cross_flow": cross_flow}
 
 
-def varied_limits(draw: LimitsDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
-    """Return the table of stronger or weaker actuators; an axis that is not actuated stays so."""
-    if draw.wrench is None:
-        return vehicle.limits.model_dump()
-    wrench = vehicle.wrench_limits * _factors(draw.wrench, 6, rng)
-    return vehicle.limits.model_dump() | {"wrench": wrench.tolist()}
+def varied_actuators(draw: ActuatorsDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
+    """Return the tables of stronger or weaker actuators; an axis that is not actuated stays so."""
+    limits = vehicle.limits.model_dump()
+    if draw.wrench is not None:
+        limits["wrench"] = (vehicle.wrench_limits * _factors(draw.wrench, 6, rng)).tolist()
+    tables = vehicle.model_dump(include={"thrusters", "azimuths", "fins"})
+    if draw.thrust is not None:
+        for propulsion in (*tables["thrusters"], *tables["azimuths"]):
+            factor = drawn(draw.thrust, rng)
+            _scale(propulsion, ("thrust_forward", "thrust_reverse", "gain_forward", "gain_reverse"), factor)
+    if draw.fins is not None:
+        for fin in tables["fins"]:
+            fin["coefficients"] = (np.array(fin["coefficients"]) * drawn(draw.fins, rng)).tolist()
+    return tables | {"limits": limits}
+
+
+def _scale(table: Content, names: tuple[str, ...], factor: float) -> None:
+    for name in names:
+        if table[name] is not None:
+            table[name] *= factor
+
+
+def _root(factors: Array, row: int, column: int) -> float:
+    return math.sqrt(factors[row] * factors[column])
+
+
+def _widened_hull(vehicle: Vehicle, growth: float) -> list[Content]:
+    """Return the boxes of a hull, as much wider as they are to displace more."""
+    boxes = [box.model_dump() for box in vehicle.hull]
+    for box in boxes:
+        length, width, height = box["size"]
+        box["size"] = (length, growth * width, height)
+    return boxes
 
 
 def _rest_rotation(draw: BuoyancyDraw, rng: np.random.Generator) -> Array:

@@ -11,19 +11,19 @@ import numpy as np
 from dq_marine.checks import positive_integer
 from dq_marine.errors import InvalidInputError
 from dq_marine.randomisation.drawing import (
+    varied_actuators,
     varied_added_mass,
     varied_buoyancy,
     varied_damping,
-    varied_limits,
     varied_rigid_body,
 )
 from dq_marine.randomisation.files import randomisation_names, read_file
 from dq_marine.randomisation.tables import (
+    ActuatorsDraw,
     AddedMassDraw,
     BuoyancyDraw,
     CurrentSpeed,
     DampingDraw,
-    LimitsDraw,
     RigidBodyDraw,
 )
 from dq_marine.vehicles import Vehicle
@@ -46,7 +46,7 @@ class Randomisation(Table):
         buoyancy: displaced water.
         added_mass: M_A.
         damping: linear and quadratic.
-        limits: of the actuators.
+        actuators: what they reach.
         current: for environments that are not told otherwise.
     """
 
@@ -56,7 +56,7 @@ class Randomisation(Table):
     buoyancy: BuoyancyDraw = BuoyancyDraw()
     added_mass: AddedMassDraw = AddedMassDraw()
     damping: DampingDraw = DampingDraw()
-    limits: LimitsDraw = LimitsDraw()
+    actuators: ActuatorsDraw = ActuatorsDraw()
     current: CurrentSpeed | None = None
 
     @classmethod
@@ -120,9 +120,9 @@ class Randomisation(Table):
         rigid_body = varied_rigid_body(self.rigid_body, vehicle.rigid_body, rng)
         return vehicle.model_dump() | {
             "rigid_body": rigid_body,
-            "buoyancy": varied_buoyancy(self.buoyancy, vehicle, rigid_body, rng),
-            "damping": varied_damping(self.damping, vehicle, rng),
-            "limits": varied_limits(self.limits, vehicle, rng),
+            **varied_buoyancy(self.buoyancy, vehicle, rigid_body, rng),
+            **varied_damping(self.damping, vehicle, rng),
+            **varied_actuators(self.actuators, vehicle, rng),
             **varied_added_mass(self.added_mass, vehicle, rng),
         }
 

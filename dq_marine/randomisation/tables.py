@@ -33,6 +33,9 @@ class RigidBodyDraw(Table):
 class BuoyancyDraw(Table):
     """The displaced water.
 
+    A vessel that floats displaces its weight, whatever is drawn: its volume and the width of its hull follow the mass;
+    of what is below only `righting_lever` applies, to its metacentric heights.
+
     Attributes:
         volume: factor, whatever the mass: what is neutral then sinks or rises.
         net_weight: added to (W - B)/W; the volume follows the mass, as if ballasted.
@@ -84,7 +87,8 @@ class DampingDraw(Table):
     Attributes:
         linear: factors of the six diagonal entries; another entry grows with the root of both factors.
         linear_coupling: added between the axes; a matrix that was diagonal is then full, which costs time in the step.
-        quadratic: factors of the six coefficients.
+        quadratic: factors of the six coefficients; a coupling grows with the root of the factors of its force's and its
+            velocity's axes, cross-flow drag with the factor of sway or heave.
     """
 
     linear: Factors6 | None = None
@@ -92,14 +96,18 @@ class DampingDraw(Table):
     quadratic: Factors6 | None = None
 
 
-class LimitsDraw(Table):
+class ActuatorsDraw(Table):
     """What the actuators reach.
 
     Attributes:
         wrench: factors of the largest force and moment of each axis.
+        thrust: factor of the thrust of every propeller, each for itself.
+        fins: factor of what every fin does, each for itself.
     """
 
     wrench: Factors6 | None = None
+    thrust: Factor | None = None
+    fins: Factor | None = None
 
 
 class CurrentSpeed(Table):

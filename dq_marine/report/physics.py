@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dq_marine.assembly import Assembly
 from dq_marine.damping_term import DampingTerm
-from dq_marine.terms import ForceTerm, restoring_terms
+from dq_marine.terms import ForceTerm, restoring_terms, uniform_water
 
 Array = NDArray[np.float64]
 
@@ -43,7 +43,7 @@ class Physics:
             self.mass_matrix,
             (*restoring_terms(self.excess_weight, self.arm), *self.forces),
             DampingTerm(self.linear, self.quadratic, self.mass_matrix, kick == "l_stable"),
-            self.current_ned,
+            uniform_water(self.current_ned),
             scheme,
             order,
         )

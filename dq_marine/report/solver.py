@@ -76,7 +76,7 @@ def follow_episode(env: Any, rng: np.random.Generator, counts: Counter[tuple[int
         body.set_state(np.concatenate([[0.0], state]))
         action = rng.uniform(-1.0, 1.0, env.action_space.shape).astype(np.float32)
         wrench = np.zeros(6)
-        wrench[inner.action_places] = action
+        wrench[inner.drive.places] = action
         count_steps(body, limits * wrench, inner.substeps, counts)
         _, _, terminated, truncated, _ = env.step(action)
         if terminated or truncated:

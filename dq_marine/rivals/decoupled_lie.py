@@ -36,7 +36,7 @@ from dq_marine.kernel.quaternion import Quaternion, quaternion_multiply, rotate,
 from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import Advance, Composition, StepOutcome, StepParameters
 from dq_marine.kernel.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
-from dq_marine.rivals.dynamics import Point, make_landing
+from dq_marine.rivals.dynamics import CARRIES, Point, make_landing
 from dq_marine.rivals.normalisation import normalised
 
 MAX_ITERATIONS = 12
@@ -142,7 +142,7 @@ def make_decoupled_lie(composition: Composition) -> Advance:
     together.
     """
     kick = make_forced_kick(undamped_kick, composition.pose_forces, composition.velocity_forces)
-    carry = composition.water.carry
+    carry = CARRIES[composition.water]
     land = make_landing(composition)
 
     def kicked(

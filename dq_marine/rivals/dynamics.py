@@ -15,6 +15,7 @@ from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
 from dq_marine.kernel.body import BodyState
+from dq_marine.kernel.current import MOVING_WATER, STILL_WATER, carry_nothing, carry_with_current
 from dq_marine.kernel.dual_quaternion import pose_from_parts
 from dq_marine.kernel.forces import join_pose_forces, join_velocity_forces
 from dq_marine.kernel.frames import momentum_bracket
@@ -54,6 +55,9 @@ class Point(NamedTuple):
 
 Wrench: TypeAlias = Callable[[StepParameters, Point, Spatial, float, float, Spatial], Spatial]
 MomentumRate: TypeAlias = Callable[[StepParameters, Point, Spatial, float, float, Spatial], Spatial]
+CARRIES = {STILL_WATER: carry_nothing, MOVING_WATER: carry_with_current}
+"""(water's parameters, time [s], pose) -> pose displaced by the way of the water, for water that rivals take."""
+
 Land: TypeAlias = Callable[[StepParameters, BodyState, Point, int, int], StepOutcome]
 
 
@@ -64,7 +68,7 @@ def make_wrench(composition: Composition) -> Wrench:
     """
     add_pose_forces = join_pose_forces(composition.pose_forces)
     add_velocity_forces = join_velocity_forces(composition.velocity_forces)
-    carry = composition.water.carry
+    carry = CARRIES[composition.water]
 
     def total(
         parameters: StepParameters,
@@ -109,7 +113,7 @@ def make_landing(composition: Composition) -> Land:
 
     A rival refuses nothing but what is not finite.
     """
-    carry = composition.water.carry
+    carry = CARRIES[composition.water]
 
     def land(
         parameters: StepParameters, state: BodyState, point: Point, steps: int, iterations: int

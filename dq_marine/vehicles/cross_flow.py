@@ -56,16 +56,19 @@ class CrossFlow(Table):
         """X of the strips' middles [m], shape (strips,)."""
         return self.center + self.length * ((np.arange(self.strips) + 0.5) / self.strips - 0.5)
 
+    @property
+    def section_drag(self) -> float:
+        """C_D of a strip, given or Hoerner's."""
+        if self.drag_coefficient is not None:
+            return self.drag_coefficient
+        if self.beam is None:
+            raise AssertionError("checked by dq_marine.vehicles.plausibility")
+        return hoerner_drag_coefficient(self.beam / (2.0 * self.depth))
+
     def strip_coefficient(self, density: float) -> float:
         """Return c of a strip's drag -c |v_i| v_i [N s^2/m^2], in water of a density [kg/m^3] unless it has its own."""
-        if self.drag_coefficient is not None:
-            drag = self.drag_coefficient
-        elif self.beam is not None:
-            drag = hoerner_drag_coefficient(self.beam / (2.0 * self.depth))
-        else:
-            raise AssertionError("checked by dq_marine.vehicles.plausibility")
         width = self.length / self.strips
-        return 0.5 * (self.water_density or density) * drag * self.depth * width
+        return 0.5 * (self.water_density or density) * self.section_drag * self.depth * width
 
     def own_axis_coefficients(self, density: float) -> NDArray[np.float64]:
         """Return the coefficients of |nu_i| nu_i for motion in one axis alone, Fossen's order, shape (6,)."""

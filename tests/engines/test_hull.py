@@ -247,3 +247,19 @@ def test_equal_boxes_share_their_code_and_a_scene_without_hull_has_none():
     assert len(set(otter.composition.pose_forces[2:])) == 2
     assert otter.terms[:3] == ("net weight", "righting moment", "buoyancy of hull box 0")
     assert not any("hull" in term for term in Scene("otter").terms)
+
+
+def test_single_precision_and_fast_arithmetic_are_near():
+    """Some steps of a box that heels and bobs, before its motion tells roundings apart."""
+    scene = Scene(barge(0.35, (0.0, 0.0, 0.1), (3, 4), damping=0.3), step=0.01, hydrostatics="hull")
+    rng = np.random.default_rng(2)
+    positions = rng.normal(scale=0.2, size=(5, 3))
+    quaternions = np.array([random_quaternion(rng) for _ in range(5)])
+    results = []
+    for precision, arithmetic in (("float64", "strict"), ("float64", "fast"), ("float32", "strict")):
+        batch = scene.batch(5, threads=1, precision=precision, arithmetic=arithmetic)
+        batch.reset(positions, quaternions)
+        batch.step(steps=50)
+        results.append(batch.position_ned)
+    assert np.allclose(results[1], results[0], atol=1e-10)
+    assert np.allclose(results[2], results[0], atol=1e-4)

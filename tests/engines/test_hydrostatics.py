@@ -11,7 +11,11 @@ from support.fossen import coriolis, errors, skew
 from support.order import observed_order
 
 from dq_marine.kernel.dual_quaternion import pose_from_parts
-from dq_marine.kernel.hydrostatics import WaterplaneRestoring, waterplane_restoring
+from dq_marine.kernel.hydrostatics import (
+    WaterplaneRestoring,
+    waterplane_restoring,
+    waterplane_restoring_in_body_axes,
+)
 from dq_marine.scene import Scene
 from dq_marine.terms import ForceTerm, matrix3
 from dq_marine.vehicles import Vehicle, load_vehicle
@@ -72,12 +76,13 @@ def solved(m, position, quaternion, velocity, duration):
     return y[:3], y[3:12].reshape(3, 3), y[12:]
 
 
-def test_to_first_order_it_is_minus_g_eta():
+@pytest.mark.parametrize("restoring", [waterplane_restoring, waterplane_restoring_in_body_axes])
+def test_to_first_order_it_is_minus_g_eta(restoring):
     small = 1e-6
     for heave, roll, pitch in small * np.random.default_rng(0).normal(size=(10, 3)):
         x, y, z, w = Rotation.from_euler("ZYX", [0.7, pitch, roll]).as_quat()
         pose = pose_from_parts((w, x, y, z), (3.0, -2.0, DEPTH + heave))
-        moment, force = waterplane_restoring(WaterplaneRestoring(matrix3(STIFFNESS), DEPTH), pose, 0.0)
+        moment, force = restoring(WaterplaneRestoring(matrix3(STIFFNESS), DEPTH), pose, 0.0)
         expected = -STIFFNESS @ [heave, roll, pitch]
         assert np.allclose([force[2], moment[0], moment[1]], expected, rtol=0.0, atol=1e-9)
         assert np.allclose([force[0], force[1], moment[2]], 0.0, atol=1e-9)
@@ -201,7 +206,9 @@ def test_free_roll_of_the_supply_vessel_has_the_period_and_damping_of_its_gm_and
 
 def test_a_load_sinks_and_trims_the_vessel():
     """C zeta = (m g, y m g, -x m g): where the Otter comes to rest, to first order."""
-    vehicle = load_vehicle("otter")
+    content = load_vehicle("otter").model_dump()
+    content["hydrostatics"] |= {"force_axes": "earth"}
+    vehicle = Vehicle.model_validate(content)
     (load,) = vehicle.loads
     scene = Scene(vehicle, step=0.02)
     assert scene.terms[:3] == ("waterplane restoring", "net weight", "righting moment")
@@ -239,3 +246,15 @@ def test_a_batch_has_the_bits_of_single_vessels():
         assert np.array_equal(batch.position_ned[i], body.position_ned)
         assert np.array_equal(batch.quaternion_body_to_ned[i], body.quaternion_body_to_ned)
         assert np.array_equal(batch.velocity_body[i], body.velocity_body)
+
+
+def test_axes_of_the_force_differ_by_where_heave_pushes():
+    """Along the vertical there is no way to gain from it; along a trimmed body's axes it pushes ahead or astern."""
+    angle, depth = 0.1, 0.02
+    pose = pose_from_parts((math.cos(angle / 2), 0.0, math.sin(angle / 2), 0.0), (0.0, 0.0, DEPTH + depth))
+    term = WaterplaneRestoring(matrix3(np.diag([1000.0, 10.0, 10.0])), DEPTH)
+    rotation = Rotation.from_euler("y", angle)
+    vertical = rotation.apply(waterplane_restoring(term, pose, 0.0).linear)
+    along_body = rotation.apply(waterplane_restoring_in_body_axes(term, pose, 0.0).linear)
+    assert vertical == pytest.approx([0.0, 0.0, -20.0], abs=1e-12)
+    assert along_body == pytest.approx([-20.0 * math.sin(angle), 0.0, -20.0 * math.cos(angle)])

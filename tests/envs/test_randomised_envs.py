@@ -154,3 +154,12 @@ def test_gymnasium_finds_nothing_wrong(env):
 def test_bad_requests_are_refused(make, message):
     with pytest.raises(InvalidInputError, match=message):
         make()
+
+
+@pytest.mark.slow
+def test_vessels_with_propellers_fly_as_each_alone():
+    """What a vessel that floats, its cross-flow drag and its propellers have drawn reaches the lanes, too."""
+    keywords = POOL | {"vehicle": "otter", "actuation": "thrusters", "max_episode_steps": 6}
+    envs = gym.make_vec(ID, num_envs=9, **keywords)
+    assert_flights_agree(envs, Separate(9, **keywords), 20, seed=3)
+    assert len(set(envs.get_attr("flown_vehicle"))) > 1

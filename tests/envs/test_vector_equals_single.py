@@ -133,8 +133,13 @@ def test_flights_are_the_same_for_any_number_of_environments_and_threads(count, 
         {"vehicle": some_axes(), "start_radius": 5.0},
         {"actuation": "thrusters"},
         {"actuation": "thrusters", "vehicle": everything(), "current": 0.0},
+        {"current": {"depths": (3.0, 5.0, 8.0), "velocities": ((0.5, 0.0), (0.2, 0.3), (-0.4, 0.0))}},
+        {"current": {"mean": (0.1, 0.0, 0.0), "standard_deviation": 0.2, "correlation_time": 5.0}},
     ],
-    ids=["still water", "fixed current", "reward", "paper", "three axes", "thrusters", "actuators of every kind"],
+    ids=[
+        "still water", "fixed current", "reward", "paper", "three axes", "thrusters", "actuators of every kind",
+        "profile", "Gauss-Markov",
+    ],
 )  # fmt: skip
 def test_flights_are_the_same_whatever_the_keywords(keywords):
     envs = gym.make_vec(ID, num_envs=5, **keywords)

@@ -9,7 +9,7 @@ from dq_marine.damping_term import DampingTerm, StripTerm
 from dq_marine.engines.one_body import OneBody
 from dq_marine.kernel.coupled_damping import HEAVE_PLANE, SWAY_PLANE
 from dq_marine.kernel.cross_flow import StripRow
-from dq_marine.terms import restoring_terms
+from dq_marine.terms import WaterTerm, restoring_terms, uniform_water
 
 
 def random_inertia(rng, condition=20.0, coupled=True):
@@ -72,7 +72,7 @@ def make_body(
         mass_matrix,
         (*restoring_terms(excess_weight, np.asarray(arm, dtype=float)), *forces),
         make_damping(mass_matrix, linear, quadratic, couplings, strips, l_stable),
-        np.asarray(current, dtype=float),
+        current if isinstance(current, WaterTerm) else uniform_water(np.asarray(current, dtype=float)),
         scheme,
         order,
     )

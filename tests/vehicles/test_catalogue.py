@@ -170,16 +170,29 @@ def test_the_data_ships_have_the_published_matrices():
         assert floating_periods(vehicle) == pytest.approx(periods, rel=0.05)
 
 
+def random_hour(body, act):
+    """Act anew each half second for an hour; no step is refused, or it would raise."""
+    for _ in range(7200):
+        act()
+        assert np.isfinite(body.get_state()).all()
+    assert body.time == pytest.approx(3600.0)
+
+
 @pytest.mark.parametrize("name", vehicle_names())
-def test_a_minute_of_random_wrenches_is_finite(name):
-    """Drawn anew each half second, up to the limits, in a current; no step is refused, or it would raise."""
+def test_an_hour_of_random_wrenches_is_finite(name):
     vehicle = load_vehicle(name)
     body = Scene(vehicle, current=(0.3, -0.1, 0.0), step=0.02).stepper()
     rng = np.random.default_rng(0)
-    for _ in range(120):
-        body.step(rng.uniform(-1.0, 1.0, 6) * vehicle.wrench_limits, 25)
-        assert np.isfinite(body.get_state()).all()
-    assert body.time == pytest.approx(60.0)
+    random_hour(body, lambda: body.step(rng.uniform(-1.0, 1.0, 6) * vehicle.wrench_limits, 25))
+
+
+@pytest.mark.parametrize("name", [name for name in vehicle_names() if load_vehicle(name).channels])
+def test_an_hour_of_random_commands_is_finite(name):
+    vehicle = load_vehicle(name)
+    body = Scene(vehicle, current=(0.3, -0.1, 0.0), step=0.02, actuation="thrusters").stepper()
+    rng = np.random.default_rng(0)
+    low, high = (np.array([getattr(channel, end) for channel in vehicle.channels]) for end in ("low", "high"))
+    random_hour(body, lambda: body.actuate(rng.uniform(low, high), 25))
 
 
 @pytest.mark.parametrize("name", vehicle_names())

@@ -1,0 +1,49 @@
+"""Under which conditions a manoeuvre is run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dq_marine.actuators import ACTUATIONS
+from dq_marine.checks import finite_number
+from dq_marine.errors import InvalidInputError
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """What all manoeuvres have in common. The water is still and deep.
+
+    Attributes:
+        throttle: of the approach, above 0 and at most 1.
+        step: of the integrator [s]; None for one that suits the vehicle.
+        actuation: what carries out throttle and helm: "wrench", a force and a moment on the body, or "thrusters", the
+            vehicle's thrusters, azimuths and fins; None for these where its file has them.
+
+    Raises:
+        InvalidInputError: a value is wrong.
+    """
+
+    throttle: float = 1.0
+    step: float | None = None
+    actuation: str | None = None
+
+    def __post_init__(self) -> None:
+        fraction("throttle", self.throttle)
+        if self.step is not None:
+            finite_number("step", self.step, above=0.0)
+        if self.actuation not in (None, *ACTUATIONS):
+            raise InvalidInputError(
+                f"actuation = {self.actuation!r} is unknown; give one of {list(ACTUATIONS)}"
+            )
+
+
+def fraction(name: str, value: float) -> float:
+    """Return a fraction of full throttle or full helm.
+
+    Raises:
+        InvalidInputError: it is not above 0 and at most 1.
+    """
+    number = finite_number(name, value, above=0.0)
+    if number > 1.0:
+        raise InvalidInputError(f"{name} = {number:g} is above 1; give a fraction of what the vehicle has")
+    return number
