@@ -91,7 +91,10 @@ def make_load(result: types.Type) -> Callable[[Any], Any]:
 
 @intrinsic
 def store(typing_context: Any, array: Any, structure: Any) -> Any:
-    """Write the numbers of nested tuples into an array, cast to its type; for compiled code only."""
+    """Write the numbers of nested tuples into an array, cast to its type; for compiled code only.
+
+    Those of tables are left as they are: compiled code reads them where they stand, and never changes them.
+    """
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         array_type, root = signature.args
@@ -102,6 +105,10 @@ def store(typing_context: Any, array: Any, structure: Any) -> Any:
             if isinstance(part, types.BaseTuple):
                 for index, inner in enumerate(part.types):
                     write(inner, builder.extract_value(value, index))
+                return
+            if isinstance(part, TableType):
+                for _ in range(part.count):
+                    next(position)
                 return
             number = context.cast(builder, value, part, array_type.dtype)
             builder.store(number, cgutils.gep_inbounds(builder, data, next(position)))

@@ -6,6 +6,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env, data_equivalence
 
 import dq_marine  # noqa: F401 - registers
+from dq_marine.currents import GaussMarkovCurrent
 from dq_marine.envs.station_keeping import StationKeepingEnv, StationKeepingVectorEnv
 from dq_marine.errors import InvalidInputError
 from dq_marine.weather import Jonswap, Sea, SlowDrift, WaveLoads, Wind, Windage, weather_of
@@ -125,3 +126,16 @@ def test_the_wind_does_not_take_the_largest_current_for_the_real_one():
 
 def test_the_checker_finds_nothing():
     check_env(StationKeepingEnv(weather=[SEA]), skip_render_check=True)
+
+
+def test_a_current_that_wanders_keeps_to_the_clock_of_the_sea():
+    """Its course is told in the sea's time, for one and for many, and does not jump when an episode begins."""
+    keywords = {"weather": [SEA], "current": GaussMarkovCurrent((0.2, 0.1, 0.0), 0.1, 20.0)}
+    many = StationKeepingVectorEnv(2, **keywords)
+    singles = [StationKeepingEnv(**keywords) for _ in range(2)]
+    observations, _ = many.reset(seed=4)
+    assert np.array_equal(observations, [single.reset(seed=4 + i)[0] for i, single in enumerate(singles)])
+    for action in ACTIONS[:4]:
+        observations = many.step(np.tile(action, (2, 1)))[0]
+        assert np.array_equal(observations, [single.step(action)[0] for single in singles])
+    assert np.abs(singles[0].velocity_body[:3]).max() < 1.0
