@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.engines.lane_draws import CHOSEN_COLUMNS
 from dq_marine.engines.lane_packing import (
     Packing,
     aligned_zeros,
@@ -16,7 +17,7 @@ from dq_marine.engines.lane_packing import (
     pack_shared,
     packing_of,
 )
-from dq_marine.engines.lane_period import CHOSEN_COLUMNS, PeriodArrays, PeriodLayout
+from dq_marine.engines.lane_period import PeriodArrays, PeriodLayout
 from dq_marine.engines.lane_type import Lanes
 from dq_marine.engines.lanes import differing_fields
 from dq_marine.engines.one_body import AT_REST

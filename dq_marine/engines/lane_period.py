@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from numba import types
-from numba.cpython.unsafe.tuple import tuple_setitem
 
 from dq_marine.engines.compilation import compile_function
+from dq_marine.engines.lane_draws import make_begin_one, make_lane_uniforms
 from dq_marine.engines.lane_packing import Packing, make_load_block, make_store_block
 from dq_marine.engines.lane_rows import (
     lane_numbers,
@@ -21,22 +21,13 @@ from dq_marine.engines.lane_rows import (
 )
 from dq_marine.engines.lane_type import Lanes
 from dq_marine.engines.lane_vehicles import PoolLayout, make_renew_vehicle
-from dq_marine.engines.packing import make_load, structure_type
-from dq_marine.engines.pcg64 import next_uniform
 from dq_marine.kernel.beginning import (
-    CLOCK_SPAN,
     Beginning,
-    Drawn,
-    beginning_draws,
-    make_beginning,
-    make_draw,
 )
-from dq_marine.kernel.current import CurrentDraw
 from dq_marine.kernel.push import action_size
 from dq_marine.kernel.selection import negation, select, select_call, some, spread
-from dq_marine.kernel.spatial import Spatial
 from dq_marine.kernel.step import ACCEPTED, Composition, StepParameters, in_water, make_motion
-from dq_marine.kernel.task import PeriodUniforms, Start, Task, make_control_period
+from dq_marine.kernel.task import Task, make_control_period
 from dq_marine.kernel.vector3 import dot
 
 
@@ -132,36 +123,6 @@ def renew_at_same_step(waiting: bool, ended: bool) -> tuple[bool, bool]:
     return ended, waiting & negation(ended)
 
 
-def choose(chosen: float, drawn: float) -> float:
-    """Return what was chosen, unless it is NaN."""
-    return drawn if chosen != chosen else chosen
-
-
-def choose3(chosen: Any, first: int, drawn: Any) -> Any:
-    """Return three numbers, those that were chosen from the index `first` on, unless they are NaN."""
-    return (
-        choose(chosen[first], drawn[0]),
-        choose(chosen[first + 1], drawn[1]),
-        choose(chosen[first + 2], drawn[2]),
-    )
-
-
-def as_chosen_in(chosen: Any, drawn: Drawn) -> Drawn:
-    """Return what was drawn, but for what was chosen: a row of `PeriodArrays.chosen`."""
-    start = drawn.start
-    q = start.attitude
-    attitude = (choose(chosen[3], q[0]), *choose3(chosen, 4, (q[1], q[2], q[3])))
-    velocity = Spatial(choose3(chosen, 10, start.velocity.angular), choose3(chosen, 7, start.velocity.linear))
-    return Drawn(
-        Start(choose3(chosen, 0, start.position_ned), attitude, velocity),
-        choose3(chosen, 13, drawn.current_ned),
-        drawn.for_sensing,
-    )
-
-
-CHOSEN_COLUMNS = 16
-
-
 def make_saturated(size: int, first: int = 0) -> Callable[[Any], Any]:
     """Return (action) -> its numbers from `first` to `size`, each held within -1 and 1."""
     if first == size - 1:
@@ -178,15 +139,6 @@ def make_saturated(size: int, first: int = 0) -> Callable[[Any], Any]:
     return saturated
 
 
-def draw_clock(generators: Any, clocks: Any, body: int) -> None:
-    """Set the time at an episode's beginning, from one more uniform number."""
-    clocks[body] = CLOCK_SPAN * next_uniform(generators[body])
-
-
-def draw_no_clock(generators: Any, clocks: Any, body: int) -> None:
-    """Leave the time at an episode's beginning at 0: the weather does not change."""
-
-
 def make_time(layout: PeriodLayout, load_numbers: Callable[..., Any]) -> Callable[..., float]:
     """Return (clocks, block, time since the episodes' beginning) -> time [s]."""
 
@@ -199,61 +151,8 @@ def make_time(layout: PeriodLayout, load_numbers: Callable[..., Any]) -> Callabl
     return time_by_clock if layout.restless else time_from_zero
 
 
-@functools.cache
-def make_begin_one(composition: Composition, task: Task, restless: bool) -> Callable[..., Any]:
-    """Return (generators, clocks, chosen, currents, body, parameters, aim) -> (Beginning, current), for one body."""
-    draw, begin = make_draw(composition, task), make_beginning(composition, task)
-    velocity = composition.water.velocity
-    load_currents = make_load(structure_type(CurrentDraw((0.0, 0.0, 0.0), 0.0)))
-    set_clock = draw_clock if restless else draw_no_clock
-    count = beginning_draws(task)
-    zeros = (0.0,) * count
-
-    def begin_one(
-        generators: Any,
-        clocks: Any,
-        chosen: Any,
-        currents: Any,
-        body: int,
-        parameters: StepParameters,
-        aim: Any,
-    ) -> Any:
-        uniforms = zeros
-        for index in range(count):
-            uniforms = tuple_setitem(uniforms, index, next_uniform(generators[body]))
-        set_clock(generators, clocks, body)
-        drawn = as_chosen_in(chosen[body], draw(aim, load_currents(currents), uniforms))
-        begun = begin(parameters, aim, drawn)
-        return begun, velocity(begun.water, begun.state.pose)
-
-    return begin_one
-
-
 def keep_nothing(blocks: Any, block: int, parameters: StepParameters) -> None:
     """Leave the parameters: their water does not change by itself."""
-
-
-@functools.cache
-def make_lane_uniforms(for_water: int, for_sensing: int) -> Callable[..., PeriodUniforms]:
-    """Return (wanted, generators, bodies, like) -> uniform numbers for a control period, drawn where wanted."""
-    count = for_water + for_sensing
-    none = PeriodUniforms((), ())
-    zeros = (0.0,) * count
-
-    def draw_nothing(wanted: bool, generators: Any, bodies: int, like: float) -> PeriodUniforms:
-        return none
-
-    def draw_one(generators: Any, body: int) -> PeriodUniforms:
-        uniforms = zeros
-        for index in range(count):
-            uniforms = tuple_setitem(uniforms, index, next_uniform(generators[body]))
-        return PeriodUniforms(uniforms[:for_water], uniforms[for_water:])
-
-    def draw_lanes(wanted: bool, generators: Any, bodies: int, like: float) -> PeriodUniforms:
-        nothing = spread(PeriodUniforms(zeros[:for_water], zeros[for_water:]), like)
-        return select_call(wanted, draw_one, (generators, bodies), nothing)
-
-    return draw_lanes if count else draw_nothing
 
 
 @functools.cache
