@@ -10,6 +10,7 @@ from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, over
 from dq_marine.manoeuvres.run import Run, Watch, unwatched
+from dq_marine.manoeuvres.series import tilt_notes
 from dq_marine.vehicles import Vehicle
 
 
@@ -76,7 +77,10 @@ def acceleration(
         settings=craft.settings,
         step=craft.scene.step,
         series=series,
-        notes=() if steady.settled else ("The speed was still changing at the end.",),
+        notes=(
+            *(() if steady.settled else ("The speed was still changing at the end.",)),
+            *tilt_notes(series),
+        ),
         top_speed=top,
         time_63=time_63,
         time_90=time_90,

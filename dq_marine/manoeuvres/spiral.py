@@ -15,6 +15,7 @@ from dq_marine.manoeuvres.conditions import Conditions, fraction
 from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees
 from dq_marine.manoeuvres.run import Run, Watch, unwatched
+from dq_marine.manoeuvres.series import tilt_notes
 from dq_marine.vehicles import Vehicle
 
 Array = NDArray[np.float64]
@@ -111,14 +112,15 @@ def spiral(
     to_starboard = _branch(start.run, rising)
     points = (*to_port, *to_starboard)
     width, height = loop(to_port, to_starboard)
+    series = start.run.series()
     return Spiral(
         vehicle=vehicle.name,
         length=craft.length,
         width=vehicle.dimensions.width,
         settings=craft.settings | {"helm": helm, "helms": helms},
         step=craft.scene.step,
-        series=start.run.series(),
-        notes=(*start.notes, *_notes(points, width)),
+        series=series,
+        notes=(*start.notes, *_notes(points, width), *tilt_notes(series)),
         to_port=to_port,
         to_starboard=to_starboard,
         loop_width=width,

@@ -15,6 +15,7 @@ from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees, over
 from dq_marine.manoeuvres.run import Watch, unwatched
+from dq_marine.manoeuvres.series import tilt_notes
 from dq_marine.vehicles import Vehicle
 
 Order = Literal["astern", "off"]
@@ -106,7 +107,11 @@ def stopping(
         settings=craft.settings | {"order": order},
         step=craft.scene.step,
         series=series,
-        notes=(*start.notes, *_notes(stopped, float(np.abs(series.heading_change).max()), float(time[-1]))),
+        notes=(
+            *start.notes,
+            *_notes(stopped, float(np.abs(series.heading_change).max()), float(time[-1])),
+            *tilt_notes(series),
+        ),
         approach_speed=start.speed,
         stopping_time=stopped,
         track_reach=value_at(time, series.distance, stopped),

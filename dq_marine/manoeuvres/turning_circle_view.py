@@ -132,4 +132,4 @@ def _draw_rates(panels: list[Any], result: TurningCircle) -> None:
     )
     over_time(angles, "angle [deg]")
     angles.set_xlabel("time since helm [s]")
-    angles.legend(loc="lower right", **LEGEND)
+    angles.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2, **LEGEND)

@@ -8,6 +8,7 @@ from crafts import LIMITS, LINEAR, mass_of, sphere
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres import Conditions, acceleration, stopping
+from dq_marine.vehicles import load_vehicle
 
 THRUST = LIMITS[0]
 QUADRATIC = (300.0, 600.0, 600.0, 50.0, 50.0, 50.0)
@@ -116,3 +117,12 @@ def test_wrong_throttles_are_refused(throttle):
 def test_wrong_orders_are_refused():
     with pytest.raises(InvalidInputError, match="'sideways' is unknown; give 'astern' or 'off'"):
         stopping(sphere(), order="sideways")
+
+
+def test_a_vehicle_that_tumbles_says_so():
+    """BlueROV2: its thrusters push below its centre, nothing actuates pitch, and at full throttle it goes over."""
+    vehicle = load_vehicle("bluerov2")
+    assert "try less throttle" in acceleration(vehicle).notes[-1]
+    assert not any(
+        "throttle" in note for note in acceleration(vehicle, conditions=Conditions(throttle=0.1)).notes
+    )
