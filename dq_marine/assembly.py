@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.actuators import ActuationTerm
+from dq_marine.actuation_term import ActuationTerm
 from dq_marine.damping_term import DampingTerm
 from dq_marine.errors import InvalidInputError
 from dq_marine.kernel.actuation import NO_ACTUATION

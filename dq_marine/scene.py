@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.actuators import ACTUATIONS, actuation_term
+from dq_marine.actuation_term import ACTUATIONS, actuation_term
 from dq_marine.assembly import Assembly
 from dq_marine.checks import finite_number
 from dq_marine.currents import CurrentLike, GaussMarkovCurrent, UniformCurrent, current_of, plain

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dq_marine.actuators import ACTUATIONS
+from dq_marine.actuation_term import ACTUATIONS
 from dq_marine.checks import finite_number
 from dq_marine.errors import InvalidInputError
 

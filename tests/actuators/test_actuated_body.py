@@ -16,14 +16,16 @@ from dq_marine.vehicles import load_vehicle
 QUATERNION = np.array([0.8, 0.2, -0.4, 0.4]) / np.linalg.norm([0.8, 0.2, -0.4, 0.4])
 VELOCITY = (0.8, 0.5, -0.6, 0.7, -0.8, 0.9)
 COMMAND = (50.0, -0.7, 40.0, 2.0, 0.8, 0.5, 0.25, -0.3)
+LAGGED_COMMAND = (50.0, 40.0, 2.0, 0.25)
 
 
 def lagged():
-    """Every kind of actuator, without what has a kink in time or velocity: rate limits, quadratic damping."""
+    """One actuator of each kind, without what has a kink in time or velocity: rate limits, quadratic damping."""
     vehicle = everything()
     lag = {"time_constant": 0.3, "rate_limit": None}
     content = vehicle.model_dump()
     content["damping"]["quadratic"] = (0.0,) * 6
+    content |= {kind: content[kind][:1] for kind in ("thrusters", "azimuths", "fins")}
     for thruster in content["thrusters"]:
         thruster |= lag | {"dead_band": 0.0}
     for azimuth in content["azimuths"]:
@@ -44,16 +46,16 @@ def placed(body, values):
 @pytest.mark.parametrize(("order", "finest", "tolerance"), [(2, 320, 0.05), (4, 160, 0.15)])
 def test_the_order_is_kept(order, finest, tolerance):
     vehicle = lagged()
-    values = np.array(
-        [20.0, -0.3, 15.0, 0.5, 0.3, 0.1, 0.1, -0.1]
-    )  # no channel changes sign: n |n| has a kink there
+    values = np.array([20.0, 15.0, 0.5, 0.1])  # no channel changes sign: n |n| has a kink there
     duration, counts = 0.4, finest // np.array([8, 4, 2, 1])
-    *reference, reached = solve(vehicle, (1.0, -2.0, 3.0), QUATERNION, VELOCITY, values, COMMAND, duration)
+    *reference, reached = solve(
+        vehicle, (1.0, -2.0, 3.0), QUATERNION, VELOCITY, values, LAGGED_COMMAND, duration
+    )
     measured = []
     for count in counts:
         body = Scene(vehicle, step=duration / count, order=order, actuation="thrusters").stepper()
         placed(body, values)
-        body.actuate(COMMAND, int(count))
+        body.actuate(LAGGED_COMMAND, int(count))
         measured.append(errors(body, reference))
         assert body.actuator_values == pytest.approx(reached, rel=1e-9)
     for kind, series in zip(("position", "attitude", "velocity"), np.array(measured).T, strict=True):
