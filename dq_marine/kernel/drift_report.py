@@ -48,11 +48,18 @@ class DriftReport(NamedTuple):
     method: int
 
 
-def equation_size_squared(a: Vector3, za: Vector3, w: Vector3, y: Vector3, zb: Vector3) -> float:
-    """Return the squared size that a residual is compared with: of the terms a, za and w, a product of y and zb."""
+def equation_size_squared(
+    a: Vector3, za: Vector3, w: Vector3, y: Vector3, zb: Vector3, coupled: Vector3
+) -> float:
+    """Return the squared size that a residual is compared with.
+
+    That of the terms a, za and w, where w is a product of y and zb, and of `coupled`, the part of za that y brings in:
+    where nothing turns a body whose M is coupled, rotation undoes that part but for round-off.
+    """
     part = by_precision(a[0], CANCELLED_PART**2, CANCELLED_PART_SINGLE**2)
     cancelled = part * dot(y, y) * dot(zb, zb)
-    return dot(a, a) + dot(za, za) + dot(w, w) + cancelled + smallest_normal(a[0])
+    terms = dot(a, a) + dot(za, za) + dot(w, w) + dot(coupled, coupled)
+    return terms + cancelled + smallest_normal(a[0])
 
 
 def converged_squared(like: float) -> float:

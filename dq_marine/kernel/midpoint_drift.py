@@ -70,13 +70,11 @@ def drift_equation(inertia: Inertia, t: Vector3, a: Vector3, b: Vector3) -> Drif
         inertia.linear_block_inverse,
         add_scaled(zb, -2.0, transform(inertia.matrix.linear_angular, t)),
     )
-    za = add(  # (D3)
-        scale(2.0, transform(inertia.matrix.angular, t)),
-        transform(inertia.matrix.angular_linear, y),
-    )
+    coupled = transform(inertia.matrix.angular_linear, y)
+    za = add(scale(2.0, transform(inertia.matrix.angular, t)), coupled)  # (D3)
     w = cross(y, zb)  # (D4)
     residual = subtract(add(add(conjugate_unscaled(t, za), w), cross(t, w)), a)  # (D5)
-    relative = dot(residual, residual) / equation_size_squared(a, za, w, y, zb)
+    relative = dot(residual, residual) / equation_size_squared(a, za, w, y, zb, coupled)
     return DriftEquation(t, gain, zb, y, za, w, residual, relative)
 
 

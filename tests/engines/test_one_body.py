@@ -12,10 +12,12 @@ from support.bodies import make_body, random_damping, random_inertia, random_qua
 from dq_marine.errors import InvalidInputError, StepNotSolvableError
 from dq_marine.kernel.drift import make_continuation, make_direct, make_drift_by, make_newton
 from dq_marine.kernel.drift_report import drift_accepted
-from dq_marine.kernel.dual_quaternion import dual_multiply
+from dq_marine.kernel.dual_quaternion import dual_multiply, pose_from_parts
 from dq_marine.kernel.midpoint_drift import MIDPOINT
 from dq_marine.kernel.paper_drift import PAPER
+from dq_marine.kernel.spatial import Spatial
 from dq_marine.scene import Scene
+from dq_marine.terms import inertia_term
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -197,3 +199,24 @@ def test_a_new_body_is_where_reset_puts_it():
     body.reset()
     assert np.array_equal(fresh, body.get_state())
     assert np.abs(body.velocity_body).max() < 1e-15
+
+
+@pytest.mark.parametrize("scheme", [MIDPOINT, PAPER], ids=["midpoint", "paper"])
+@given(seed=st.integers(0, 2**32 - 1), log_push=st.floats(-12.0, 2.0), log_noise=st.floats(-18.0, -8.0))
+@settings(max_examples=60, deadline=None)
+def test_a_push_without_a_moment_is_solved(scheme, seed, log_push, log_noise):
+    """The momentum that translation brings in by coupling is then undone by rotation but for round-off."""
+    rng = np.random.default_rng(seed)
+    inertia = inertia_term(random_inertia(rng, condition=1e3))
+    push = 10.0**log_push * rng.normal(size=3)
+    noise = 10.0**log_noise * np.linalg.norm(push) * rng.normal(size=3)
+    pose = pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    momentum = Spatial(tuple(noise.tolist()), tuple(push.tolist()))
+    _, _, report = make_drift_by(scheme, make_direct(scheme))(inertia, 1e-4, pose, momentum)
+    assert drift_accepted(report)
+
+
+def test_a_heavy_coupled_vehicle_starts_from_rest():
+    body = Scene("npsauv", step=0.02).stepper()
+    body.step([10.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    assert body.velocity_body[0] > 0.0
