@@ -88,7 +88,7 @@ def finite_rows(name: str, value: ArrayLike, rows: int, size: int) -> NDArray[np
     except (TypeError, ValueError) as error:
         raise InvalidInputError(f"{name} is not numeric; give numbers of shape ({rows}, {size})") from error
     if array.shape == (size,):
-        array = np.tile(array, (rows, 1))
+        array = np.full((rows, size), array)
     if not array.flags.writeable:
         array = array.copy()
     if array.shape != (rows, size):
