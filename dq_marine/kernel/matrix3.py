@@ -17,6 +17,12 @@ DOUBLE_ROOT = 1e-10
 DOUBLE_ROOT_SINGLE = 1e-5
 """`DOUBLE_ROOT` where numbers have single precision."""
 
+ROUND_OFF = 1e-15
+"""Of the sums of products of three entries, over the cube of the matrix's norm."""
+
+ROUND_OFF_SINGLE = 5e-7
+"""`ROUND_OFF` where numbers have single precision."""
+
 
 def transform(m: Matrix3, a: Vector3) -> Vector3:
     """Return m a."""
@@ -136,12 +142,19 @@ def sum_of_principal_minors(a: Matrix3) -> float:
     return trace(adjugate(a))
 
 
+def sum_of_squares(a: Matrix3) -> float:
+    """Return the square of the Frobenius norm."""
+    upper = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + a[3] * a[3] + a[4] * a[4]
+    return upper + a[5] * a[5] + a[6] * a[6] + a[7] * a[7] + a[8] * a[8]
+
+
 def has_negative_real_eigenvalue(a: Matrix3) -> bool:
     """Whether a real eigenvalue of a is zero or negative; True for NaN.
 
     Those are the roots -mu, mu >= 0, of the characteristic polynomial: f(mu) = mu^3 + c2 mu^2 + c1 mu + c0 with
     the invariants as coefficients, all positive as a rule, and then there is none. Else f(0) = c0 must be positive,
-    and so must f where it is smallest on mu > 0, beyond round-off: two equal eigenvalues make it zero there.
+    and so must f where it is smallest on mu > 0, beyond round-off: two equal eigenvalues make it zero there. Round-off
+    is that of f's terms, and that of its coefficients, which are sums of products of a's entries.
     """
     c2, c1, c0 = trace(a), sum_of_principal_minors(a), determinant(a)
     all_positive = (c2 > 0.0) & (c1 > 0.0) & (c0 > 0.0)
@@ -152,7 +165,9 @@ def has_negative_real_eigenvalue(a: Matrix3) -> bool:
     rises = (discriminant <= 0.0) | (lowest <= 0.0)  # f has no minimum on mu > 0
     double_root = by_precision(c0, DOUBLE_ROOT, DOUBLE_ROOT_SINGLE)
     size = ((lowest + abs(c2)) * lowest + abs(c1)) * lowest + c0
-    positive_there = ((lowest + c2) * lowest + c1) * lowest + c0 > double_root * size
+    entries = math.sqrt(sum_of_squares(a))
+    round_off = double_root * size + by_precision(c0, ROUND_OFF, ROUND_OFF_SINGLE) * entries * entries * entries
+    positive_there = ((lowest + c2) * lowest + c1) * lowest + c0 > round_off
     return negation((c0 > 0.0) & (rises | positive_there))
 
 
