@@ -1,0 +1,54 @@
+"""Compiling in a child process, which takes the compiler's memory with it when it ends.
+
+What Numba compiles it never gives back: some 100 MB for each step that is composed anew, and the tests compose
+hundreds. A child finds all that its parent has compiled, adds what is missing to the cache on disk, and ends; the
+parent loads it.
+"""
+
+from __future__ import annotations
+
+import os
+import warnings
+from pathlib import Path
+
+from numba.core.dispatcher import Dispatcher
+
+ENOUGH = 1.2e9
+"""Bytes from which on a process has others compile: all that most steps share is compiled by then."""
+
+
+def memory_held() -> int:
+    """Return the bytes that this process has in memory; 0 where there is no /proc."""
+    try:
+        return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE")
+    except OSError:
+        return 0
+
+
+def is_kept(dispatcher, signature) -> bool:
+    """Whether a function is on disk for a signature, or never will be."""
+    cache = dispatcher._cache
+    if not hasattr(cache, "_index_key"):
+        return True
+    return cache._index_key(signature, dispatcher.targetctx.codegen()) in cache._cache_file._load_index()
+
+
+def compile_in_children() -> None:
+    """Let Numba compile as described, from now on and in this process."""
+    compile_here = Dispatcher.compile
+
+    def compile_in_child(dispatcher, signature):
+        if memory_held() > ENOUGH and not is_kept(dispatcher, signature):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of threads: the child uses none of them
+                child = os.fork()
+            if child == 0:
+                Dispatcher.compile = compile_here
+                try:
+                    compile_here(dispatcher, signature)
+                finally:
+                    os._exit(0)  # the parent meets the same error
+            os.waitpid(child, 0)
+        return compile_here(dispatcher, signature)
+
+    Dispatcher.compile = compile_in_child
