@@ -12,11 +12,12 @@ from suite import (
     ppo,
     rival,
     terms,
+    water,
 )
 from suite.plan import Section
 
 SECTIONS: dict[str, Section] = {
     module.SECTION.name: module.SECTION
-    for module in (one_body, terms, batch, environments, rival, ppo, compile_times, memory, endurance)
+    for module in (one_body, terms, water, batch, environments, rival, ppo, compile_times, memory, endurance)
 }
 """By name."""
