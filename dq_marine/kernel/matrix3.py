@@ -166,7 +166,9 @@ def has_negative_real_eigenvalue(a: Matrix3) -> bool:
     double_root = by_precision(c0, DOUBLE_ROOT, DOUBLE_ROOT_SINGLE)
     size = ((lowest + abs(c2)) * lowest + abs(c1)) * lowest + c0
     entries = math.sqrt(sum_of_squares(a))
-    round_off = double_root * size + by_precision(c0, ROUND_OFF, ROUND_OFF_SINGLE) * entries * entries * entries
+    round_off = (
+        double_root * size + by_precision(c0, ROUND_OFF, ROUND_OFF_SINGLE) * entries * entries * entries
+    )
     positive_there = ((lowest + c2) * lowest + c1) * lowest + c0 > round_off
     return negation((c0 > 0.0) & (rises | positive_there))
 
