@@ -73,6 +73,7 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         control_period: float,
         substeps: int,
         scheme: str,
+        hydrostatics: str,
         actuation: str,
         weather: Sequence[Any],
         render_mode: str | None,
@@ -90,10 +91,11 @@ class MarineEnv(gym.Env[Observation, Action], ABC):
         step = self.control_period / self.substeps
         self.weather = weather_of(weather)
         self.restless = any(part.changes for part in self.weather)
-        compose = partial(Scene, current=wanted, scheme=scheme, step=step, actuation=actuation)
+        compose = partial(Scene, current=wanted, step=step, scheme=scheme, hydrostatics=hydrostatics)
 
         def scene_of(one: Vehicle) -> Scene:
-            return compose(one, forces=weather_terms(self.weather, one, np.array(self.current_draw.fixed)))
+            forces = weather_terms(self.weather, one, np.array(self.current_draw.fixed))
+            return compose(one, actuation=actuation, forces=forces)
 
         numbers = partial(numbers_of, period=self.control_period)
         vehicles = vehicle_draw.vehicles(self.vehicle)

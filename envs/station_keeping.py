@@ -109,6 +109,7 @@ class StationKeepingEnv(MarineEnv):
         control_period: float = 0.1,
         substeps: int = 4,
         scheme: str = "midpoint",
+        hydrostatics: str = "linear",
         actuation: str = "wrench",
         weather: Sequence[Any] = (),
         reward: StationKeepingReward | Mapping[str, float] | None = None,
@@ -132,6 +133,7 @@ class StationKeepingEnv(MarineEnv):
             control_period: time between actions [s].
             substeps: integrator steps in a control period.
             scheme: the integrator's drift, by name.
+            hydrostatics: "linear", or "hull" for buoyancy at any depth and attitude: see `dq_marine.scene.Scene`.
             actuation: "wrench" or "thrusters": what an action drives; thrusters, azimuths and fins are at rest when an
                 episode begins.
             reward: weights and widths, as a `StationKeepingReward` or a dictionary of its fields.
@@ -181,6 +183,7 @@ class StationKeepingEnv(MarineEnv):
             control_period=control_period,
             substeps=substeps,
             scheme=scheme,
+            hydrostatics=hydrostatics,
             actuation=actuation,
             weather=weather,
             render_mode=render_mode,

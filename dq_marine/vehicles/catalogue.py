@@ -8,6 +8,7 @@ from pathlib import Path
 
 from dq_marine.errors import InvalidInputError, VehicleFileError
 from dq_marine.vehicles.model import Vehicle
+from dq_marine.vehicles.radiation import read_radiation
 from dq_marine.vehicles.validation import validated
 
 _FOLDER = Path(__file__).parent
@@ -56,4 +57,10 @@ def _read(path: Path) -> Vehicle:
         raise VehicleFileError(f"{path}: not a TOML file: {error}") from error
     except OSError as error:
         raise VehicleFileError(f"{path}: cannot be read: {error.strerror}") from error
+    beside = content.get("radiation")
+    if isinstance(beside, str):
+        try:
+            content["radiation"] = read_radiation(path.parent / beside)
+        except (OSError, ValueError) as error:
+            raise VehicleFileError(f"{path}: radiation = {beside!r} cannot be read: {error}") from error
     return validated(content, str(path), VehicleFileError)

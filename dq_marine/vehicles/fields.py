@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
@@ -11,6 +11,10 @@ Row3: TypeAlias = tuple[float, float, float]
 Vector3: TypeAlias = Row3
 Vector6: TypeAlias = Row6
 Motion: TypeAlias = Literal["surge", "sway", "heave", "roll", "pitch", "yaw"]
+
+MOTIONS: tuple[str, ...] = get_args(Motion)
+"""Names of the six axes, in Fossen's order."""
+
 NonNegative: TypeAlias = Annotated[float, Field(ge=0)]
 Positive: TypeAlias = Annotated[float, Field(gt=0)]
 NonNegative6: TypeAlias = tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative]

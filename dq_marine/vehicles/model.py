@@ -7,7 +7,7 @@ Craft Hydrodynamics and Motion Control.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self, get_args
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +17,9 @@ from dq_marine.vehicles.actuators import ActuatorSet, Azimuth, ChannelSheet, Fin
 from dq_marine.vehicles.cross_flow import CrossFlow
 from dq_marine.vehicles.damping_coupling import DampingCoupling, coupling_tensor
 from dq_marine.vehicles.fields import (
+    MOTIONS,
     Matrix3,
     Matrix6,
-    Motion,
     NonNegative6,
     Positive,
     Table,
@@ -28,12 +28,10 @@ from dq_marine.vehicles.fields import (
 )
 from dq_marine.vehicles.hydrostatics import HullBox, Hydrostatics, Load
 from dq_marine.vehicles.plausibility import check_vehicle
+from dq_marine.vehicles.radiation import RadiationTable
 
 STANDARD_GRAVITY = 9.81
 """Acceleration of gravity [m/s^2]."""
-
-MOTIONS: tuple[str, ...] = get_args(Motion)
-"""Names of the six axes, in Fossen's order."""
 
 
 class RigidBody(Table):
@@ -130,6 +128,7 @@ class Vehicle(Table):
         hydrostatics: of a vessel that floats; None for one that is under water altogether.
         hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
         loads: weights that act besides.
+        radiation: added mass and damping by frequency, for the forces of seas; a file names a CSV file beside it.
     """
 
     name: str = Field(min_length=1)
@@ -149,6 +148,7 @@ class Vehicle(Table):
     hydrostatics: Hydrostatics | None = None
     hull: tuple[HullBox, ...] = ()
     loads: tuple[Load, ...] = ()
+    radiation: RadiationTable | None = None
 
     @model_validator(mode="after")
     def _plausible(self) -> Self:

@@ -75,6 +75,12 @@ class Radiation:
         return added, damping
 
 
+def radiation_of(vehicle: Vehicle) -> Radiation | None:
+    """Return what a vehicle's file has of radiation, None if nothing."""
+    own = vehicle.radiation
+    return None if own is None else Radiation(*map(np.array, (own.frequencies, own.added_mass, own.damping)))
+
+
 def draft_of(vehicle: Vehicle, stiffness: Array) -> float:
     """Return a vessel's mean draft [m], the volume over the area of the waterplane, from its stiffness in heave."""
     specific_weight = vehicle.buoyancy.water_density * STANDARD_GRAVITY

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from dq_marine.errors import InvalidInputError
 from dq_marine.terms import ForceTerm
 from dq_marine.vehicles import Vehicle
-from dq_marine.weather.floating import Radiation, long_wave_rao
+from dq_marine.weather.floating import Radiation, long_wave_rao, radiation_of
 from dq_marine.weather.rao import ForceRAO
 from dq_marine.weather.sea import Sea
 from dq_marine.weather.submerged import submerged_terms
@@ -23,7 +23,8 @@ class WaveLoads:
     Attributes:
         sea: whose.
         rao: force transfer functions of the hull, where known.
-        radiation: added mass and damping by frequency, for the long-wave approximation of a hull that floats.
+        radiation: added mass and damping by frequency, for the long-wave approximation of a hull that floats; None for
+            the vehicle's own.
         stiffness: hydrostatic, of heave, roll and pitch about the body origin, shape (3, 3) [N/m, N, N m]; None for the
             vehicle's own. A vehicle that has none is submerged.
     """
@@ -60,7 +61,8 @@ class WaveLoads:
         own = vehicle.waterplane_stiffness if self.stiffness is None else _checked_stiffness(self.stiffness)
         if own is None:
             return submerged_terms(self.sea, vehicle)
-        return (long_wave_rao(self.sea, vehicle, own, self.radiation).term(self.sea),)
+        radiation = self.radiation or radiation_of(vehicle)
+        return (long_wave_rao(self.sea, vehicle, own, radiation).term(self.sea),)
 
 
 def _checked_stiffness(stiffness: ArrayLike) -> NDArray[np.float64]:

@@ -50,6 +50,16 @@ def test_a_vessel_that_drifts_stays_afloat_to_the_end_of_an_episode():
     assert env.position_ned[2] == pytest.approx(0.04, abs=0.01)
 
 
+def test_a_vessel_may_capsize_in_an_environment():
+    """By its two hulls it floats upside down as well."""
+    env = StationKeepingEnv("otter", hydrostatics="hull", current=(0.0, 0.0, 0.0))
+    assert any("hull" in term for term in env.scene.terms)
+    env.reset(seed=0, options={"quaternion": (0.0, 1.0, 0.0, 0.0), "velocity": np.zeros(6)})
+    for _ in range(200):
+        env.step(np.zeros(2, np.float32))
+    assert env.quaternion_body_to_ned[1] ** 2 > 0.9  # upside down still
+
+
 def test_a_vector_of_vessels_is_the_single_one():
     single, envs = StationKeepingEnv("otter"), StationKeepingVectorEnv(3, vehicle="otter")
     observations, _ = envs.reset(seed=7)

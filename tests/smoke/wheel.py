@@ -11,6 +11,7 @@ import numpy as np
 import dq_marine
 from dq_marine.errors import MissingDependencyError
 from dq_marine.scene import Scene
+from dq_marine.vehicles import load_vehicle, vehicle_names
 
 assert "site-packages" in dq_marine.__file__, dq_marine.__file__
 for extra in ("torch", "stable_baselines3", "meshcat", "matplotlib"):
@@ -34,6 +35,10 @@ else:
 body = Scene().stepper()
 body.step((10.0, 0.0, 0.0, 0.0, 0.0, 0.0), 50)
 assert body.position_ned[0] > 0.0
+
+for name in vehicle_names():
+    load_vehicle(name)
+assert load_vehicle("supply_vessel").radiation is not None
 
 command = Path(sys.executable).parent / "dq-marine"
 for arguments in (["--help"], ["vehicles"]):
