@@ -149,12 +149,12 @@ class ThrustAllocator:
         """Return the commands of all channels, and the forces that they give: none within a dead band."""
         given, command = forces.copy(), []
         for i, thruster in enumerate(self._actuators.thrusters):
-            command.append(_speed(thruster, forces[i]))
+            command.append(thruster.command_for(forces[i]))
             given[i] = _held_thrust(thruster, command[-1])
         first = len(self._actuators.thrusters)
         for azimuth in self._actuators.azimuths:
             thrust, angle = _thrust_and_angle(azimuth, *forces[first : first + 2])
-            command += [_speed(azimuth, thrust), angle]
+            command += [azimuth.command_for(thrust), angle]
             held = _held_thrust(azimuth, command[-2])
             given[first : first + 2] = held * math.cos(angle), held * math.sin(angle)
             first += 2
@@ -165,14 +165,6 @@ class ThrustAllocator:
         low, high = np.array([[channel.low, channel.high] for channel in self._channels]).T
         limits = np.where(command < 0.0, -low, high)
         return np.asarray(np.clip(command / np.where(limits > 0.0, limits, 1.0), -1.0, 1.0))
-
-
-def _speed(propulsion: Propulsion, thrust: float) -> float:
-    """Return the shaft speed n with k n |n| = thrust."""
-    forward, reverse = propulsion.gains
-    if thrust >= 0.0:
-        return min(math.sqrt(thrust / forward), propulsion.high)
-    return max(-math.sqrt(-thrust / reverse), propulsion.low)
 
 
 def _held_thrust(propulsion: Propulsion, speed: float) -> float:

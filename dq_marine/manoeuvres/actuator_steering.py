@@ -12,7 +12,7 @@ from dq_marine.engines.one_body import OneBody
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres.steering import HEAVE, PITCH, RUDDER, SURGE, YAW, Order
 from dq_marine.vehicles import Vehicle
-from dq_marine.vehicles.actuators import ActuatorSet, Azimuth, Propulsion
+from dq_marine.vehicles.actuators import ActuatorSet, Azimuth
 
 Array = NDArray[np.float64]
 
@@ -133,11 +133,11 @@ class ActuatorSteering:
     def _command(self, thrusts: Array, deflections: Array) -> Array:
         """Return the commands of all channels."""
         thrusters, azimuths = self._actuators.thrusters, self._actuators.azimuths
-        commands = [shaft_speed(thruster, thrusts[i]) for i, thruster in enumerate(thrusters)]
+        commands = [thruster.command_for(thrusts[i]) for i, thruster in enumerate(thrusters)]
         for i, azimuth in enumerate(azimuths):
             first = len(thrusters) + 2 * i
             thrust, angle = thrust_and_angle(azimuth, *thrusts[first : first + 2])
-            commands += [shaft_speed(azimuth, thrust), angle]
+            commands += [azimuth.command_for(thrust), angle]
         return np.array([*commands, *deflections])
 
 
@@ -165,11 +165,3 @@ def thrust_and_angle(azimuth: Azimuth, ahead: float, starboard: float) -> tuple[
     if ahead < 0.0 and not turns_round(azimuth):
         return -thrust, math.atan2(-starboard, -ahead)
     return thrust, math.atan2(starboard, ahead)
-
-
-def shaft_speed(propulsion: Propulsion, thrust: float) -> float:
-    """Return the n of k n |n| = thrust, within the limits."""
-    forward, reverse = propulsion.gains
-    if thrust >= 0.0:
-        return min(math.sqrt(thrust / forward), propulsion.high)
-    return max(-math.sqrt(-thrust / reverse), propulsion.low) if reverse else 0.0

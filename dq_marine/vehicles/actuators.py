@@ -117,6 +117,13 @@ class Propulsion(Table):
         forward, reverse = self.gains
         return -reverse * self.low**2, forward * self.high**2
 
+    def command_for(self, thrust: float) -> float:
+        """Return the command n whose thrust k n |n| in water at rest is the one given [N], within the limits."""
+        forward, reverse = self.gains
+        if thrust >= 0.0:
+            return min(math.sqrt(thrust / forward), self.high)
+        return max(-math.sqrt(-thrust / reverse), self.low) if reverse else 0.0
+
 
 class Thruster(Propulsion):
     """A propeller on a fixed axis.

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres import Conditions, acceleration, decay, turning_circle, zig_zag
-from dq_marine.manoeuvres.actuator_steering import ActuatorSteering, shaft_speed, thrust_and_angle
+from dq_marine.manoeuvres.actuator_steering import ActuatorSteering, thrust_and_angle
 from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.linear_modes import rest_of
 from dq_marine.manoeuvres.steering import Order
@@ -67,7 +67,7 @@ def test_planes_give_the_pitch_moment_that_is_asked_for(moment):
 @given(thrust=st.floats(-500.0, 500.0))
 def test_shaft_speeds_give_the_thrust_within_the_limits(thrust):
     thruster = Thruster(position=(0, 0, 0), direction=(1, 0, 0), thrust_forward=200.0, thrust_reverse=90.0)
-    n = shaft_speed(thruster, thrust)
+    n = thruster.command_for(thrust)
     gain = 200.0 if n >= 0.0 else 90.0
     assert gain * n * abs(n) == pytest.approx(min(max(thrust, -90.0), 200.0), abs=1e-9)
 
