@@ -14,7 +14,7 @@ demo: $(VENV)/.demo  ## hold a BlueROV2 Heavy in a current; write a 3-D replay a
 	@$(BIN)/dq-marine demo --out demo
 
 test: $(VENV)/.test  ## run every test
-	@$(BIN)/python -m pytest --numprocesses 2 --dist loadgroup
+	@$(BIN)/python -m pytest --numprocesses 2 --dist loadfile
 
 lint: $(VENV)/.test  ## check style, types and the direction of imports
 	@$(BIN)/ruff check .

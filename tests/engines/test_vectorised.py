@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numba.core.registry import cpu_target
 from support.bodies import make_body
+from support.child_compilation import HERE
 
 from dq_marine.engines.batch import Batch
 from dq_marine.engines.one_body import OneBody
@@ -50,6 +51,7 @@ def texts(tmp_path_factory):
     scene, bare = Scene(current=(0.2, -0.1, 0.05)), make_body(np.diag([5.0, 6.0, 7.0, 1.0, 2.0, 3.0]), 0.02)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("DQ_MARINE_CACHE_DIR", str(tmp_path_factory.mktemp("compiled")))
+        patch.setenv(HERE, "1")
         return {  # the full scene, and twice the smallest, which does not take long
             "strict": batch_assembly(scene.composition, scene.parameters_at(0.02), "strict"),
             "fast": batch_assembly(bare._composition, bare.parameters, "fast"),

@@ -17,6 +17,10 @@ ENOUGH = 1.2e9
 """Bytes from which on a process has others compile: all that most steps share is compiled by then."""
 
 
+HERE = "DQ_MARINE_TESTS_COMPILE_HERE"
+"""Variable of the environment: if it is set, no child is asked, so that what was compiled can be looked at."""
+
+
 def memory_held() -> int:
     """Return the bytes that this process has in memory; 0 where there is no /proc."""
     try:
@@ -38,7 +42,8 @@ def compile_in_children() -> None:
     compile_here = Dispatcher.compile
 
     def compile_in_child(dispatcher, signature):
-        if memory_held() > ENOUGH and not is_kept(dispatcher, signature):
+        wanted = HERE not in os.environ and memory_held() > ENOUGH
+        if wanted and not is_kept(dispatcher, signature):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # of threads: the child uses none of them
                 child = os.fork()
