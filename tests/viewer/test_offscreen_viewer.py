@@ -90,10 +90,11 @@ def test_caption_and_a_second_viewer_side_by_side(viewer: OffscreenViewer) -> No
     plain = viewer.render(NEAR)
     with OffscreenViewer(ROV, WIDTH, HEIGHT) as captioned:
         changed = np.abs(plain.astype(int) - captioned.render(NEAR)).max(axis=2) > 8
-    rows, columns = np.nonzero(changed)
-    assert len(rows) > 50
-    assert rows.max() < HEIGHT / 4
-    assert columns.max() < WIDTH / 2
+    caption = np.zeros_like(changed)
+    caption[: HEIGHT // 4, : WIDTH // 2] = True
+    assert (changed & caption).sum() > 50
+    # Another browser may smooth an edge otherwise: a pixel at the waterline, seen once in ten runs.
+    assert (changed & ~caption).sum() <= 5
 
 
 def test_torpedo_is_drawn_and_closing_leaves_nothing() -> None:
