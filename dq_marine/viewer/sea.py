@@ -86,9 +86,8 @@ def draw_surface(scale: SeaScale, water: Surroundings) -> list[Command]:
     sheet, look = _sheet(scale), Look(opacity=water.surface_opacity, lit=False, both_sides=True)
     colors = rgb(water.surface) * _mottle(sheet, scale.period, water.surface_patches)
     drawn = surface(SURFACE, sheet, colors, look)
-    drawn["object"][
-        "renderOrder"
-    ] = -1  # before other things that can be seen through, which it must not cover
+    if water.surface_opacity > 0.5:  # before other things that can be seen through, which it must not cover
+        drawn["object"]["renderOrder"] = -1
     return [set_object(SURFACE, drawn)]
 
 
