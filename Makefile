@@ -13,7 +13,8 @@ help:  ## list the commands
 demo: $(VENV)/.demo  ## hold a BlueROV2 Heavy in a current; write a 3-D replay and a plot
 	@$(BIN)/dq-marine demo --out demo
 
-test: $(VENV)/.test  ## run every test
+test: $(VENV)/.test  ## run every test; installs Chromium where it may, else skips what needs it
+	@.ci/browser.sh $(BIN)/python
 	@$(BIN)/python -m pytest --numprocesses 2 --dist loadfile
 
 lint: $(VENV)/.test  ## check style, types and the direction of imports

@@ -1,5 +1,12 @@
 """Baseline controllers, training with Stable-Baselines3, evaluation and flights.
 
-The controllers, the evaluation and the flights need only what the environments need. Training and trained
-policies need the extra: pip install "dq-marine[agents]".
+The public names stand in `__init__.pyi`, one line each, and are imported on first use. The controllers, the
+evaluation and the flights need only what the environments need. Training and trained policies need the extra:
+pip install "dq-marine[agents]".
 """
+
+from dq_marine.util.lazy_names import lazy_attributes, public_names
+
+_names = public_names(__file__)
+__all__ = sorted(_names)
+__getattr__, __dir__ = lazy_attributes(__name__, _names, globals())

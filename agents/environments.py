@@ -9,7 +9,7 @@ from typing import Any
 import gymnasium as gym
 
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.envs.marine_env import MarineEnv
+from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
 
 DEFAULT_ENVIRONMENT = EnvironmentSettings(id="dq_marine/StationKeeping-v0")

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from dq_marine.agents.settings import Settings
+from dq_marine.agents.settings import EnvironmentSettings, Settings
 from dq_marine.errors import InvalidInputError
 
 PRESET_FOLDER = Path(__file__).parent / "presets"
@@ -34,13 +34,29 @@ def read_settings(preset: str | os.PathLike[str], model: type[SettingsType]) -> 
         InvalidInputError: there is no such preset, or it is wrong; the message lists field, value and remedy.
     """
     path = _preset_path(preset)
+    return validate_settings(_content(path), model, source=str(path))
+
+
+def read_environment(preset: str | os.PathLike[str]) -> EnvironmentSettings:
+    """Read the environment that a preset trains in.
+
+    Raises:
+        InvalidInputError: there is no such preset, or its table `environment` is missing or wrong.
+    """
+    path = _preset_path(preset)
+    content = _content(path)
+    if "environment" not in content:
+        raise InvalidInputError(f"{path} has no table [environment]; give a preset that has one")
+    return validate_settings(content["environment"], EnvironmentSettings, source=f"{path}: [environment]")
+
+
+def _content(path: Path) -> dict[str, Any]:
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InvalidInputError(f"{path}: not a TOML file: {error}") from error
     except OSError as error:
         raise InvalidInputError(f"{path}: cannot be read: {error.strerror}") from error
-    return validate_settings(content, model, source=str(path))
 
 
 def validate_settings(content: Any, model: type[SettingsType], *, source: str) -> SettingsType:

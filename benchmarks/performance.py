@@ -20,17 +20,18 @@ import time
 from pathlib import Path
 
 from rich.console import Console
-from suite import machine
+from suite import circumstances
 from suite.page import page
 from suite.plan import NotInstalledError, Plan, Section
-from suite.record import OtherMachineError, Record, stamp, write_whole
-from suite.screen import Screen
+from suite.record import OtherMachineError, Record, stamp
 from suite.sections import SECTIONS
 
-from dq_marine.engines.workers import MOST_THREADS, usable_cores
+from dq_marine.backend.workers import MOST_THREADS, usable_cores
+from dq_marine.report.screen import Screen
+from dq_marine.util.files import with_folder, write_whole
 
-DOCS = machine.ROOT / "docs"
-TRIALS = machine.ROOT / "build" / "benchmarks"
+DOCS = circumstances.ROOT / "docs"
+TRIALS = circumstances.ROOT / "build" / "benchmarks"
 UNFINISHED = TRIALS / "unfinished"
 """Where a long section keeps how far it is."""
 
@@ -71,7 +72,7 @@ class Run:
         self.screen = Screen(Console())
         self._quick = quick
         self._threads = threads
-        self._sources = machine.source_fingerprint()
+        self._sources = circumstances.source_fingerprint()
 
     def begin(self, *, fresh: bool) -> None:
         """Make ready, and if afresh, forget what was not finished."""
@@ -104,7 +105,7 @@ class Run:
     def write_page(self) -> Path:
         """Write the page of all that is recorded; return its path."""
         path = self.record.path.with_suffix(".md")
-        write_whole(path, page(self.record, SECTIONS))
+        write_whole(with_folder(path), page(self.record, SECTIONS))
         return path
 
 

@@ -24,11 +24,13 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from dq_marine.assembly import Assembly
-from dq_marine.damping_term import DampingTerm
-from dq_marine.engines.one_body import OneBody
+from dq_marine.algebra.spatial import ANGULAR_FIRST
 from dq_marine.errors import StepNotSolvableError
-from dq_marine.terms import angular_first, uniform_water
+from dq_marine.physics.current.build import uniform_water
+from dq_marine.physics.damping.build import DampingTerm
+from dq_marine.physics.matrices import angular_first
+from dq_marine.simulation.assembly import Assembly
+from dq_marine.simulation.one_body import OneBody
 from dq_marine.vehicles import load_vehicle
 
 Array = NDArray[np.float64]
@@ -110,17 +112,17 @@ def lie_map_run(
 
 
 def product_run(m: Array, velocity: Array, h: float, count: int, scheme: str) -> Array | None:
-    """Return the attitude after `count` steps of one of the product's schemes; None if one had to be rescued."""
+    """Return the attitude after `count` steps of one of the product's schemes; None if a step needed the fallback."""
     zero = np.zeros(6)
     damping, water = DampingTerm(np.zeros((6, 6)), zero, m), uniform_water(np.zeros(3))
     assembly = Assembly(angular_first(m), (), damping, water, scheme)
     body = OneBody(assembly.composition, assembly.parameters_at, h)
-    body.reset(velocity_body=np.concatenate([velocity[3:], velocity[:3]]))
+    body.reset(velocity_body=velocity[list(ANGULAR_FIRST)])
     try:
         body.step(steps=count)
     except StepNotSolvableError:
         return None
-    if body.steps_rescued:
+    if body.fallback_steps:
         return None
     return Rotation.from_quat(np.roll(body.quaternion_body_to_ned, -1)).as_matrix()
 

@@ -28,6 +28,26 @@ def finite_array(name: str, value: ArrayLike, size: int) -> NDArray[np.float64]:
     return array
 
 
+def squared_length_of(components: NDArray[np.float64]) -> Any:
+    """Return the sum of the squares along the first axis: a number for one vector, an array for columns of many.
+
+    Squares are added one after the other, in the order of the components. What NumPy and its BLAS do instead depends on
+    the shape of the array and on the processor, so that one vector alone and the same one among others would differ in
+    the last bit.
+    """
+    with np.errstate(over="ignore"):
+        squares = components * components
+        total = squares[0]
+        for square in squares[1:]:
+            total = total + square
+    return total
+
+
+def length_of(components: NDArray[np.float64]) -> Any:
+    """Return the Euclidean length along the first axis, by `squared_length_of`."""
+    return np.sqrt(squared_length_of(components))
+
+
 def unit_quaternion(name: str, value: ArrayLike) -> NDArray[np.float64]:
     """Return `value` as a float64 quaternion of exactly unit length, shape (4,).
 
@@ -35,7 +55,7 @@ def unit_quaternion(name: str, value: ArrayLike) -> NDArray[np.float64]:
         InvalidInputError: as for `finite_array`, or its length is not 1 to 1e-6.
     """
     q = finite_array(name, value, 4)
-    length = float(np.linalg.norm(q))
+    length = float(length_of(q))
     if abs(length - 1.0) > 1e-6:
         raise InvalidInputError(
             f"{name} has length {length:.9g}; give a unit quaternion, scalar first (divide it by its length)"
@@ -58,8 +78,8 @@ def positive_integer(name: str, value: Any) -> int:
     return number
 
 
-def finite_number(name: str, value: Any, *, above: float | None = None) -> float:
-    """Return `value` as a finite float, strictly above a limit where one is given.
+def finite_number(name: str, value: Any, *, above: float | None = None, most: float | None = None) -> float:
+    """Return `value` as a finite float, strictly above a limit and at most another where they are given.
 
     Raises:
         InvalidInputError: it is not.
@@ -71,6 +91,8 @@ def finite_number(name: str, value: Any, *, above: float | None = None) -> float
     if not np.isfinite(number) or (above is not None and number <= above):
         limit = "finite" if above is None else f"finite and above {above:g}"
         raise InvalidInputError(f"{name} = {number:g} is not {limit}; give one that is")
+    if most is not None and number > most:
+        raise InvalidInputError(f"{name} = {number:g}; give at most {most:g}")
     return number
 
 
@@ -112,7 +134,7 @@ def unit_quaternion_rows(name: str, value: ArrayLike, rows: int) -> NDArray[np.f
         InvalidInputError: as for `finite_rows`, or a length is not 1 to 1e-6.
     """
     q = finite_rows(name, value, rows, 4)
-    lengths = np.linalg.norm(q, axis=1)
+    lengths = length_of(q.T)
     bad = np.flatnonzero(np.abs(lengths - 1.0) > 1e-6)
     if bad.size:
         raise InvalidInputError(

@@ -5,6 +5,8 @@ Each names the offending value, the limit it broke and the remedy, and leaves wh
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 
 class DQMarineError(Exception):
     """Base class of every exception that dq_marine raises on purpose."""
@@ -12,6 +14,20 @@ class DQMarineError(Exception):
 
 class InvalidInputError(DQMarineError, ValueError):
     """A value handed to a public function is outside what that function accepts."""
+
+
+class UnknownKeywordError(InvalidInputError, TypeError):
+    """A keyword is none of those that are taken.
+
+    It is a `TypeError`, too, with Python's own words: TorchRL tries keywords and takes back those refused in this way.
+    """
+
+    @classmethod
+    def of(cls, where: str, unknown: Sequence[str], remedy: str) -> UnknownKeywordError:
+        """Return the error of a constructor that was given unknown keywords."""
+        names = ", ".join(map(repr, unknown))
+        what = "an unexpected keyword argument" if len(unknown) == 1 else "unexpected keyword arguments"
+        return cls(f"{where} got {what} {names}; {remedy}")
 
 
 class VehicleFileError(InvalidInputError):
@@ -29,7 +45,7 @@ class StepNotSolvableError(DQMarineError, ArithmeticError):
     """The integrator refused a step; the state is the one before the call.
 
     Attributes:
-        reason: one word from `dq_marine.engines.one_body.REFUSALS`.
+        reason: one word from `dq_marine.simulation.one_body.REFUSALS`.
         residual: relative residual of the discrete equation where the solver stopped.
         step_times_spin: h |omega|, dimensionless [rad].
         step_times_speed: h |v| [m].
@@ -60,3 +76,7 @@ class StepNotSolvableError(DQMarineError, ArithmeticError):
             f"h|omega| = {step_times_spin:.3g} rad, h|v| = {step_times_speed:.3g} m; "
             f"{remedy}"
         )
+
+
+class UnsuitableVehicleWarning(UserWarning):
+    """A task cannot be done with the vehicle that an environment is made with."""

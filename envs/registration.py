@@ -1,19 +1,14 @@
-"""Registration of the environments with Gymnasium, by name only: their modules are imported by `gym.make`."""
+"""Registration of the tasks that come with the package: every file in `envs/tasks` defines one."""
 
 from __future__ import annotations
 
-import gymnasium as gym
+import importlib
+import pkgutil
 
-NAMESPACE = "dq_marine"
+from dq_marine.envs import tasks
 
 
 def register_environments() -> None:
-    """Register every environment, once."""
-    name = f"{NAMESPACE}/StationKeeping-v0"
-    if name not in gym.registry:
-        gym.register(
-            id=name,
-            entry_point="dq_marine.envs.station_keeping:StationKeepingEnv",
-            vector_entry_point="dq_marine.envs.station_keeping:StationKeepingVectorEnv",
-            max_episode_steps=300,
-        )
+    """Import every file in `envs/tasks`: the last line of each registers its task."""
+    for module in pkgutil.iter_modules(tasks.__path__, f"{tasks.__name__}."):
+        importlib.import_module(module.name)

@@ -13,7 +13,7 @@ ROOT = Path(__file__).parents[1]
 @pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.py")), ids=lambda path: path.stem)
 def test_example(path, tmp_path):
     result = subprocess.run(
-        [sys.executable, "-W", "error", str(path)], capture_output=True, text=True, cwd=tmp_path, timeout=300
+        [sys.executable, "-W", "error", str(path)], capture_output=True, text=True, cwd=tmp_path, timeout=1800
     )
     assert result.returncode == 0, result.stderr
     assert result.stdout
@@ -25,7 +25,9 @@ BLOCKS = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re
 @pytest.mark.parametrize("program", BLOCKS, ids=lambda program: program.strip().splitlines()[-1][:40])
 def test_readme_code(program, tmp_path):
     if "my_rov.toml" in program:
-        (tmp_path / "my_rov.toml").write_text((ROOT / "dq_marine/vehicles/bluerov2_heavy.toml").read_text())
+        (tmp_path / "my_rov.toml").write_text(
+            (ROOT / "dq_marine/vehicles/catalogue/bluerov2_heavy.toml").read_text()
+        )
         program += "env.reset(seed=0)\n"
     program = "import gymnasium as gym, dq_marine\n" + program
     result = subprocess.run(
@@ -33,7 +35,7 @@ def test_readme_code(program, tmp_path):
         capture_output=True,
         text=True,
         cwd=tmp_path,
-        timeout=300,
+        timeout=1800,
     )
     assert result.returncode == 0, result.stderr
     if "save_html" in program:

@@ -5,13 +5,15 @@ from __future__ import annotations
 from itertools import product
 from typing import Any
 
-from dq_marine.engines.batch import Batch
-from dq_marine.scene import Scene
+from dq_marine.report.plan import Row, distinct
+from dq_marine.report.presentation import three_digits
+from dq_marine.report.timing import Timed, rounded
+from dq_marine.simulation.batch import Batch
+from dq_marine.simulation.scene import Scene
 from suite.bodies import check_all_went, driven, full_scene, wrenches
 from suite.plan import Plan, Section
 from suite.random_vehicles import scattered_vehicles
-from suite.tables import Row, digits, distinct, find, millions, noise, table
-from suite.timing import Case, compare, rounded
+from suite.tables import find, millions, noise, table
 
 SIZES = tuple(4**k for k in range(9))
 QUICK_SIZES = (1, 64, 4096)
@@ -26,13 +28,14 @@ SHOWN_SIZE = 4096
 Key = tuple[str, int, str, str, int]
 
 METHOD = f"""\
-`Scene.batch` of BlueROV2 Heavies with everything that the scene can have: net weight, righting moment, linear and
-quadratic damping, a current, and a wrench of its own for each body. Million steps of a body in a second, with 100 steps
-in a call and with one; a call checks and copies the wrenches, which is part of the time. *strict* has the bits of the
-single body, *fast* fuses multiply-adds and reorders sums. Empty cells: fewer blocks of bodies than threads.
+`Scene.batch` of BlueROV2 Heavies with every term that the scene can have: net weight, righting moment, linear and
+quadratic damping, a current, and a different wrench for each body. The figures are million steps of a body per second,
+with 100 steps in a call and with one. A call checks and copies the wrenches, which is part of the time. *strict* has
+the bits of a single body; *fast* fuses multiply-adds and reorders sums. A cell is empty where there are fewer blocks of
+bodies than threads.
 
-The last table is for `batch_of` with {DISTINCT_VEHICLES} random vehicles, dealt out over the bodies, whose numbers all
-differ and are loaded for each body.
+The last table is for `batch_of` with {DISTINCT_VEHICLES} random vehicles, dealt out over the bodies. All of their
+numbers differ and are loaded for each body.
 """
 
 
@@ -49,7 +52,7 @@ def rows_of_size(plan: Plan, size: int, fleet: list[Scene]) -> list[Row]:
     """Return all kinds of batches of one size, measured in turn."""
     scenes = {"alike": [full_scene()], "own": (fleet * (size // len(fleet) + 1))[:size]}
     batches: dict[Key, Batch] = {}
-    cases: dict[Key, Case] = {}
+    cases: dict[Key, Timed] = {}
     for vehicles, threads in product(scenes, plan.threads):
         for arithmetic, precision in KINDS if vehicles == "alike" else OWN_KINDS:
             plan.tell(f"{size:,} bodies, {arithmetic} {precision}, vehicles {vehicles}")
@@ -58,23 +61,23 @@ def rows_of_size(plan: Plan, size: int, fleet: list[Scene]) -> list[Row]:
                 key = (vehicles, threads, arithmetic, precision, steps)
                 batches[key], cases[key] = batch, stepping(batch, steps)
     plan.tell(f"{size:,} bodies, all in turn")
-    timings = compare(cases, plan.rounds, plan.progress)
+    timings = plan.compare(cases)
     for batch in batches.values():
         check_all_went(batch)
         batch.close()
     return [
         dict(zip(("vehicles", "threads", "arithmetic", "precision", "steps"), key, strict=True))
         | {"bodies": size, "threads_used": batch.threads, "bytes_per_body": rounded(batch.bytes_per_body)}
-        | {"steps_rescued": batch.steps_rescued}
-        | timings[key].row()
+        | {"fallback_steps": batch.fallback_steps}
+        | timings[key].full_row()
         for key, batch in batches.items()
     ]
 
 
-def stepping(batch: Batch, steps: int) -> Case:
+def stepping(batch: Batch, steps: int) -> Timed:
     """Return the case of a call."""
     pushes = wrenches(batch.size)
-    return Case(lambda: batch.step(pushes, steps=steps), batch.size * steps)
+    return Timed(lambda: batch.step(pushes, steps=steps), batch.size * steps)
 
 
 def tables(content: dict[str, Any]) -> str:
@@ -128,7 +131,7 @@ def gain(rows: list[Row], size: int, kind: tuple[str, str]) -> str:
     }
     threads = distinct(rows, "threads")
     one, most = (find(rows, threads=count, **wanted) for count in (min(threads), max(threads)))
-    return digits(one["best_ns"] / most["best_ns"]) if one and most and is_real(most) else ""
+    return three_digits(one["best_ns"] / most["best_ns"]) if one and most and is_real(most) else ""
 
 
 def is_real(row: Row | None) -> bool:

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.engines.batch import Batch
-from dq_marine.report.lean_scenes import changed, neutral
-from dq_marine.scene import Scene, batch_of
+from dq_marine.report.lean_scenes import CURRENT, STEP, VEHICLE, changed, neutral
+from dq_marine.simulation.batch import Batch
+from dq_marine.simulation.scene import Scene, batch_of
 from dq_marine.vehicles import Vehicle, load_vehicle
-
-VEHICLE = "bluerov2_heavy"
-CURRENT = (0.3, 0.0, 0.0)
-STEP = 0.02
 
 Array = NDArray[np.float64]
 
@@ -44,24 +39,6 @@ def check_all_went(batch: Batch) -> None:
     """Raise RuntimeError if a step was refused, for a body that stands costs nothing."""
     if batch.steps_refused:
         raise RuntimeError(f"{batch.steps_refused} calls were refused: {list(batch.refusals.items())[:3]}")
-
-
-def terms_alone() -> dict[str, dict[str, Any]]:
-    """Return arguments of scenes with no term, with each alone, and with all."""
-    own = load_vehicle(VEHICLE)
-    bare = neutral(own)
-    linear = changed(bare, "damping", linear=own.damping.linear)
-    return {
-        "inertia alone": {"vehicle": bare},
-        "net weight": {"vehicle": changed(bare, "buoyancy", volume=own.buoyancy.volume)},
-        "righting moment": {"vehicle": changed(bare, "buoyancy", center=own.buoyancy.center)},
-        "current": {"vehicle": bare, "current": CURRENT},
-        "linear damping": {"vehicle": linear},
-        "linear and quadratic damping": {
-            "vehicle": changed(linear, "damping", quadratic=own.damping.quadratic)
-        },
-        "everything": {"vehicle": own, "current": CURRENT},
-    }
 
 
 def terms_added_up() -> dict[str, Scene]:

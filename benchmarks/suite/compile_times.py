@@ -5,22 +5,24 @@ from __future__ import annotations
 import tempfile
 from typing import Any
 
-from dq_marine.engines.compilation import CACHE_DIRECTORY_VARIABLE
+from dq_marine.backend.disk_cache import CACHE_DIRECTORY_VARIABLE
+from dq_marine.report.plan import Row, distinct
+from dq_marine.report.presentation import three_digits
+from dq_marine.report.timing import rounded
 from suite.child import said_by_child
 from suite.first_step import FIRST_STEPS, MANY
 from suite.plan import Plan, Section
-from suite.tables import Row, digits, distinct, table
-from suite.timing import rounded
+from suite.tables import table
 
 COLD_ROUNDS, QUICK_COLD_ROUNDS = 2, 1
 WARM_ROUNDS = 3
 """After each cold one."""
 
 METHOD = f"""\
-Seconds from `import dq_marine`, in a fresh process each, to the end of the first reset and step: of a single body and
-{MANY} bodies in the full scene, of a single environment and {MANY} in a vector environment. *Cold*: with an empty
-`DQ_MARINE_CACHE_DIR`, so that everything is compiled. *Warm*: with the cache that the cold process left. The import
-itself, which is part of both, imports no Numba. Python and the operating system have the files in memory.
+Seconds from `import dq_marine` in a fresh process to the end of the first reset and step. The rows are a single body
+and {MANY} bodies in the full scene, a single environment, and {MANY} in a vector environment. *Cold* starts with an
+empty `DQ_MARINE_CACHE_DIR`, so that everything is compiled; *warm* starts with the cache that the cold process left.
+The import itself is part of both and imports no Numba. Python and the operating system have the files in memory.
 """
 
 
@@ -52,11 +54,11 @@ def tables(content: dict[str, Any]) -> str:
     """Return seconds, cold and warm."""
     rows = content["rows"]
     lines = [
-        [name, *(digits(first_step(rows, name, state)) for state in ("cold", "warm"))]
+        [name, *(three_digits(first_step(rows, name, state)) for state in ("cold", "warm"))]
         for name in distinct(rows, "what")
     ]
     imports = min(row["import_s"] for row in rows)
-    note = f"Best of all rounds. `import dq_marine` is {digits(imports)} s of it.\n"
+    note = f"Best of all rounds. `import dq_marine` is {three_digits(imports)} s of it.\n"
     return table(["seconds to the first step of", "cold", "warm"], lines) + "\n" + note
 
 
@@ -71,7 +73,7 @@ def headline(content: dict[str, Any]) -> str:
     """Return the times of all."""
     rows = content["rows"]
     shown = [
-        f"{name} {digits(first_step(rows, name, 'cold'))} ({digits(first_step(rows, name, 'warm'))})"
+        f"{name} {three_digits(first_step(rows, name, 'cold'))} ({three_digits(first_step(rows, name, 'warm'))})"
         for name in distinct(rows, "what")
     ]
     return f"seconds to the first step, cold (warm): {', '.join(shown)}"

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.engines.batch import Batch
-from dq_marine.scene import batch_of
+from dq_marine.report.kept import Kept
+from dq_marine.simulation.batch import Batch
+from dq_marine.simulation.scene import batch_of
 from dq_marine.vehicles import load_vehicle
-from suite import machine
+from suite import circumstances
 from suite.batch import named
 from suite.bodies import STEP, VEHICLE, full_scene
-from suite.checkpoint import Checkpoint
 from suite.plan import Plan, Section
 from suite.random_vehicles import coupled_vehicles
 from suite.tables import table
@@ -29,13 +29,13 @@ ACTIONS_A_MINUTE = round(60.0 / (STEP * HELD_STEPS))
 CHECKPOINT_MINUTES = 10
 
 METHOD = f"""\
-{BODIES:,} random vehicles in one `batch_of`, strict arithmetic in float64: mass, inertia, added mass and damping
-scattered by up to 40 %, full symmetric positive definite matrices that couple every axis to every other, centres off
-the axes, net weights and net buoyancies, a current. Random actions over the whole range of the actuators, drawn anew
-every {STEP * HELD_STEPS:g} s for every axis of every body, steps of {STEP} s, for {MINUTES // 60} hours of simulated
-time. Every state is looked at after each simulated minute. *Rescued* are steps that plain Newton did not solve and its
-fallback did; *refused* calls are those that a body did not take part in. The sea has no bottom and no shore: bodies
-that sink, rise or drift with the current do so all day.
+{BODIES:,} random vehicles fly in one `batch_of`, in strict float64 arithmetic. Mass, inertia, added mass and damping
+are scattered by up to 40 %; their matrices are full, symmetric positive definite, and couple every axis to every
+other; the centres are off the axes; there are net weights, net buoyancies and a current. Actions are random over the
+whole range of the actuators and are drawn anew every {STEP * HELD_STEPS:g} s for every axis of every body. Steps of
+{STEP} s make {MINUTES // 60} hours of simulated time. Every state is checked after each simulated minute. Steps are
+*solved by the fallback* where plain Newton did not solve them; a call is *refused* if a body did not take part in it.
+The sea has no bottom and no shore: bodies that sink, rise or drift with the current do so all day.
 """
 
 
@@ -46,7 +46,7 @@ class Tally:
     Attributes:
         minutes: simulated.
         seconds: that they took.
-        rescued: steps that plain Newton did not solve.
+        fallbacks: steps that plain Newton did not solve.
         refused: calls that a body did not take part in.
         reasons: why, with the number of calls.
         not_finite: bodies with a number that is not finite, at the last look.
@@ -58,7 +58,7 @@ class Tally:
 
     minutes: int = 0
     seconds: float = 0.0
-    rescued: int = 0
+    fallbacks: int = 0
     refused: int = 0
     reasons: dict[str, int] = field(default_factory=dict)
     not_finite: int = 0
@@ -69,7 +69,7 @@ class Tally:
 
     def look_at(self, batch: Batch) -> None:
         """Take note of all bodies' states."""
-        self.rescued, self.refused = batch.steps_rescued, batch.steps_refused
+        self.fallbacks, self.refused = batch.fallback_steps, batch.steps_refused
         velocity, attitude = batch.velocity_body, batch.quaternion_body_to_ned
         self.not_finite = int(np.count_nonzero(~np.isfinite(batch.get_state()).all(axis=1)))
         self.fastest = max(self.fastest, length(velocity[:, :3]))
@@ -90,7 +90,7 @@ def measure(plan: Plan) -> dict[str, Any]:
     plan.tell(f"{BODIES:,} random vehicles")
     scenes = [full_scene(vehicle) for vehicle in coupled_vehicles(BODIES)]
     batch = batch_of(scenes, threads=plan.threads[-1])
-    checkpoint = Checkpoint(plan.scratch / f"endurance-{minutes}.json", machine.source_fingerprint())
+    checkpoint = Kept(plan.scratch / f"endurance-{minutes}.json", circumstances.source_fingerprint())
     tally = taken_up(batch, checkpoint)
     plan.tell(f"{minutes:,} simulated minutes")
     while tally.minutes < minutes:
@@ -103,7 +103,7 @@ def measure(plan: Plan) -> dict[str, Any]:
     return {"bodies": BODIES, "threads": batch.threads} | asdict(tally)
 
 
-def taken_up(batch: Batch, checkpoint: Checkpoint) -> Tally:
+def taken_up(batch: Batch, checkpoint: Kept) -> Tally:
     """Return a new tally, or that of the checkpoint, to whose state the batch is then set."""
     kept = checkpoint.read()
     if kept is None:
@@ -112,7 +112,7 @@ def taken_up(batch: Batch, checkpoint: Checkpoint) -> Tally:
         return Tally()
     tally = Tally(**kept["tally"])
     batch.set_state(kept["state"])
-    batch.steps_rescued, batch.steps_refused = tally.rescued, tally.refused
+    batch.fallback_steps, batch.steps_refused = tally.fallbacks, tally.refused
     return tally
 
 
@@ -148,7 +148,7 @@ def tables(content: dict[str, Any]) -> str:
         ["bodies", f"{content['bodies']:,}"],
         ["simulated time of each", f"{content['minutes'] / 60.0:.4g} h"],
         ["steps, all bodies together", f"{body_steps(content):,}"],
-        ["steps rescued", f"{content['rescued']:,}"],
+        ["steps by the fallback", f"{content['fallbacks']:,}"],
         ["calls refused", f"{content['refused']:,}" + (f" ({reasons})" if reasons else "")],
         ["bodies with a NaN or an infinity at the end", f"{content['not_finite']:,}"],
         ["largest speed seen", f"{content['fastest']:.3g} m/s"],
@@ -164,7 +164,8 @@ def headline(content: dict[str, Any]) -> str:
     """Return the counts."""
     return (
         f"{content['bodies']:,} bodies for {content['minutes'] / 60.0:.4g} h: {content['not_finite']} not finite, "
-        f"{content['rescued']:,} of {body_steps(content):,} steps rescued, {content['refused']:,} calls refused"
+        f"{content['fallbacks']:,} of {body_steps(content):,} steps by the fallback, "
+        f"{content['refused']:,} calls refused"
     )
 
 

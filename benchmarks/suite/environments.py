@@ -13,10 +13,12 @@ import numpy as np
 from gymnasium.vector import AutoresetMode, VectorEnv
 
 import dq_marine  # noqa: F401 - registers the environments
+from dq_marine.report.plan import Row, distinct
+from dq_marine.report.presentation import three_digits
+from dq_marine.report.timing import no_garbage_collection, rounded
 from suite.batch import named
-from suite.plan import Plan, Section
-from suite.tables import Row, digits, distinct, find, millions, noise, table
-from suite.timing import LEAST, no_garbage_collection, rounded
+from suite.plan import LEAST, Plan, Section
+from suite.tables import find, millions, noise, table
 
 ID = "dq_marine/StationKeeping-v0"
 SIZES = (1, 64, 1024, 4096, 16384, 65536)
@@ -33,13 +35,13 @@ GYMNASIUM = "SyncVectorEnv"
 SHOWN_SIZE = 4096
 
 METHOD = f"""\
-`gym.make_vec("{ID}", num_envs=n, autoreset_mode="SameStep")`, control period 0.1 s in 4
-substeps of the full physics, random actions. Million environment steps (control periods) in a second as a **mean over
-whole episodes**, that is over {EPISODE} periods after a common reset, or a multiple: that is how long an episode can
-last, so every environment is reset on the way, most of them because they left their bounds. Automatic resets,
-observations, rewards and infos are included. And in the **best stretch** of at least {LEAST * 1e3:.0f} ms, which may be
-one with few resets. `{GYMNASIUM}` is Gymnasium's own vectorisation of our single environment, at {REFERENCE_SIZE}
-environments.
+`gym.make_vec("{ID}", num_envs=n, autoreset_mode="SameStep")` with a control period of 0.1 s
+in 4 substeps of the full physics, under random actions. The first table is million environment steps (control
+periods) per second as a **mean over whole episodes**: over {EPISODE} periods after a common reset, or a multiple. An
+episode lasts at most that long, so every environment is reset on the way, most of them because they left their bounds.
+Automatic resets, observations, rewards and infos are included. The second table is the **best stretch** of at least
+{LEAST * 1e3:.0f} ms, which may have few resets. `{GYMNASIUM}` is Gymnasium's own vectorisation of our single
+environment, with {REFERENCE_SIZE} environments.
 """
 
 
@@ -178,7 +180,7 @@ def tables(content: dict[str, Any]) -> str:
     reference = cell(rows, REFERENCE_SIZE, GYMNASIUM, "float64", 1)
     ours = cell(rows, REFERENCE_SIZE, "strict", "float64", 1)
     if reference and ours:
-        times = digits(reference["mean_ns"] / ours["mean_ns"])
+        times = three_digits(reference["mean_ns"] / ours["mean_ns"])
         parts.append(
             f"{REFERENCE_SIZE} single environments in Gymnasium's `{GYMNASIUM}`: {millions(reference, 'mean_ns')} "
             f"million a second; ours, with the same bits as result, on one thread is {times} times faster.\n"

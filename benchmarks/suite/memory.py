@@ -10,13 +10,15 @@ from typing import Any
 
 import numpy as np
 
+from dq_marine.report.plan import Row, distinct
+from dq_marine.report.presentation import three_digits
+from dq_marine.report.timing import rounded
 from suite.bodies import driven, full_scene, wrenches
 from suite.child import said_by_child
 from suite.environments import EPISODE, marine, random_actions
 from suite.plan import Plan, Section
 from suite.random_vehicles import coupled_vehicles, scattered_vehicles
-from suite.tables import Row, digits, distinct, found, table
-from suite.timing import rounded
+from suite.tables import found, table
 
 BODIES = 4096
 DISTINCT_VEHICLES = 64
@@ -30,18 +32,18 @@ RESIDENT, QUICK_RESIDENT = 65_536, 16_384
 PRECISIONS = ("float64", "float32")
 
 METHOD = f"""\
-**Held**: bytes of the arrays that a `Batch` and a vector environment keep for each body and each environment; numbers
-that are the same for all are stored once and count nothing. *Vehicles alike* are BlueROV2 Heavies, *of their own*
-random ones with the Heavy's terms, *coupled* random ones with full matrices.
+**Held**: bytes of the arrays that a `Batch` and a vector environment keep for each body and each environment. Numbers
+that are the same for all are stored once and are not counted. *Vehicles alike* are BlueROV2 Heavies, *of their own*
+are random vehicles with the Heavy's terms, *coupled* are random vehicles with full matrices.
 
-**Taken by calls**: what Python's allocator, NumPy's arrays included, has handed out after {CALLS} calls of `step` more
-than before (*growth*), and at the highest moment of a call above its beginning: in the middle call, and in the
-hungriest, which for environments is the one in which most episodes end. On one thread, for what threads hand each
-other is sometimes freed a call later, and with Python's cache of attribute names emptied before either count. With
+**Taken by calls**: what Python's allocator, with NumPy's arrays, has handed out after {CALLS} calls of `step` in excess
+of before (*growth*), and at the peak of a call in excess of its beginning: for the middle call and for the hungriest,
+which for environments is the one in which most episodes end. The measurement uses one thread, because what threads hand
+each other is sometimes freed one call later, and empties Python's cache of attribute names before either count. With
 `copy=False` the arrays are lent out instead of copied.
 
-**Process**: growth of the resident memory of a process that makes {RESIDENT:,} environments and steps them, over that
-of the same process with 64, in bytes an environment.
+**Process**: growth of the resident memory of a process that makes {RESIDENT:,} environments and steps them, in excess
+of that of the same process with 64, in bytes per environment.
 """
 
 
@@ -174,7 +176,7 @@ def held_table(rows: list[Row]) -> str:
     lines = [
         [f"each {what}, vehicles {vehicles}"]
         + [
-            digits(found(rows, what=what, vehicles=vehicles, precision=precision)["bytes"])
+            three_digits(found(rows, what=what, vehicles=vehicles, precision=precision)["bytes"])
             for precision in PRECISIONS
         ]
         for what in distinct(rows, "what")
@@ -190,7 +192,7 @@ def taken_table(rows: list[Row]) -> str:
             row["what"],
             f"{row['growth']:,}",
             f"{row['middle_peak']:,.0f}",
-            digits(row["middle_peak"] / row["bodies"]),
+            three_digits(row["middle_peak"] / row["bodies"]),
             f"{row['largest_peak']:,}",
         ]
         for row in rows
@@ -224,7 +226,7 @@ def headline(content: dict[str, Any]) -> str:
     )
     growth = max(row["growth"] for row in content["taken"])
     return (
-        f"{digits(body)} bytes a body, {digits(environment)} an environment held, "
+        f"{three_digits(body)} bytes a body, {three_digits(environment)} an environment held, "
         f"{per_environment(content['resident']):,.0f} resident; growth over {CALLS} calls at most "
         f"{growth:,} bytes"
     )

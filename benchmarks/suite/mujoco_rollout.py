@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 
 import numpy as np
-from mujoco_rival import Array, MujocoRival
+from mujoco_baseline import Array, MujocoBaseline
 
 
 def rollout_exists() -> bool:
@@ -14,33 +14,33 @@ def rollout_exists() -> bool:
 
 
 class MujocoRollout:
-    """A rival's bodies, from where they are, under the forces that they have now.
+    """A baseline's bodies, from where they are, under the forces that they have now.
 
     Arrays are allocated once and MuJoCo's checks are left out, to be as fast as it can.
 
     Args:
-        rival: whose model, state and forces are taken over.
+        baseline: whose model, state and forces are taken over.
         threads: that advance them; with one, it is the caller's.
         steps: of each call.
     """
 
-    def __init__(self, rival: MujocoRival, threads: int, steps: int) -> None:
+    def __init__(self, baseline: MujocoBaseline, threads: int, steps: int) -> None:
         from mujoco import MjData, mj_stateSize, mjtState
         from mujoco.rollout import Rollout
 
-        models, each = rival.bodies // rival.bodies_per_model, rival.bodies_per_model
-        self.bodies, self.bodies_per_model = rival.bodies, each
-        self._models = [rival.model] * models
-        self._data = [MjData(rival.model) for _ in range(threads)]
+        models, each = baseline.bodies // baseline.bodies_per_model, baseline.bodies_per_model
+        self.bodies, self.bodies_per_model = baseline.bodies, each
+        self._models = [baseline.model] * models
+        self._data = [MjData(baseline.model) for _ in range(threads)]
         times, poses, velocities = (
             np.zeros((models, 1)),
-            rival.poses.reshape(models, 7 * each),
-            rival.velocities.reshape(models, 6 * each),
+            baseline.poses.reshape(models, 7 * each),
+            baseline.velocities.reshape(models, 6 * each),
         )
         self._start = np.hstack([times, poses, velocities])
-        self._forces = np.repeat(rival.forces.reshape(models, 1, 6 * each), steps, axis=1)
+        self._forces = np.repeat(baseline.forces.reshape(models, 1, 6 * each), steps, axis=1)
         self._held = int(mjtState.mjSTATE_QFRC_APPLIED)
-        self._states = np.empty((models, steps, mj_stateSize(rival.model, mjtState.mjSTATE_FULLPHYSICS)))
+        self._states = np.empty((models, steps, mj_stateSize(baseline.model, mjtState.mjSTATE_FULLPHYSICS)))
         self._sensors = np.empty((models, steps, 0))
         if self._states.shape[2] != self._start.shape[1]:
             raise RuntimeError(

@@ -5,27 +5,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from suite.plan import Section
+from suite.plan import LEAST, Section
 from suite.record import Record
 from suite.tables import table
-from suite.timing import LEAST
 
 COMMAND = "python benchmarks/performance.py"
 
 HEAD = f"""\
 # Performance
 
-Written by `{COMMAND}`, which can be stopped and goes on where it was; every sample is in
-`{{json}}`. Do not edit.
+Please do not edit this page: `{COMMAND}` writes it. The command can be stopped, and goes on
+where it was; every sample is in `{{json}}`.
 
-Unless a section says otherwise: processes are warm and everything is compiled; cases that are compared are measured in
-turn (A B C A B C ...), so that a drift of the machine's speed meets all alike; a sample takes {LEAST * 1e3:.0f} ms or
-more, with the garbage collector off; the best sample is shown, and how far the medians were from it. *Load* is the
-average number of processes that wanted a core in the minute before a section began; after the first section of a run
-that was this benchmark itself.
+Unless a section says otherwise, processes are warm and everything is compiled. Cases that are compared are measured in
+turn (A B C A B C ...), so that a change of the machine's speed affects all alike. A sample takes
+{LEAST * 1e3:.0f} ms or more, with the garbage collector off. The best sample is shown, and how far the medians were
+from it. *Load* is the average number of processes that wanted a core in the minute before a section began; after the
+first section of a run that was this benchmark itself.
 """
 
-QUICK = "**A quick run, with small sizes and few samples: it shows that the benchmark works, and is no measurement.**\n"
+QUICK = "**A quick run with small sizes and few samples: it shows that the benchmark works, but does not measure.**\n"
 
 
 def page(record: Record, sections: Mapping[str, Section]) -> str:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
+from dq_marine.report.timing import Key, Timed, Timing, compare
+
 T = TypeVar("T")
+
+LEAST = 0.02
+"""Shortest time that a sample is taken over [s]."""
 
 
 class NotInstalledError(Exception):
@@ -36,6 +41,10 @@ class Plan:
     def rounds(self) -> int:
         """Samples of each case."""
         return 5 if self.quick else 9
+
+    def compare(self, cases: Mapping[Key, Timed]) -> dict[Key, Timing]:
+        """Return timings of cases measured in turn, telling what part is done."""
+        return compare(cases, self.rounds, least=LEAST, progress=self.progress)
 
     def pick(self, full: T, quick: T) -> T:
         """Return the one that is wanted."""

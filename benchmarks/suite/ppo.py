@@ -9,9 +9,11 @@ from typing import Any
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import PPOSettings, TrainingSettings
 from dq_marine.errors import MissingDependencyError
+from dq_marine.report.plan import Row, distinct
+from dq_marine.report.presentation import three_digits
+from dq_marine.report.timing import Timed, rounded
 from suite.plan import NotInstalledError, Plan, Section
-from suite.tables import Row, digits, distinct, found, noise, table
-from suite.timing import Case, compare, rounded
+from suite.tables import found, noise, table
 
 PRESET = "ppo"
 SIZES = (32, 256, 1024)
@@ -22,18 +24,19 @@ LEAST_STEPS = 12_288
 OURS, IDLE = "dq-marine", "nothing"
 
 METHOD = f"""\
-Stable-Baselines3's PPO with the project's preset `{PRESET}`: network, hyperparameters, normalisation, number of torch
-threads, environments in `MarineVecEnv`, `VecMonitor` and `VecNormalize` as in `dq-marine train`; and the same PPO on as
-many environments of the same spaces, in the same wrappers, that do nothing: they return the same observations at every
-step, and their episodes do not end. Environment steps a second of collecting and learning together, whole rollouts, in
-alternating rounds. The ratio is that of the two in one round; 1 would be a simulator that costs nothing.
+Stable-Baselines3's PPO runs with the project's preset `{PRESET}`: network, hyperparameters, normalisation, number of
+torch threads, and environments in `MarineVecEnv`, `VecMonitor` and `VecNormalize`, as in `dq-marine train`. It is
+compared with the same PPO on as many environments of the same spaces, in the same wrappers, that do nothing: they
+return the same observations at every step, and their episodes do not end. The figures are environment steps per second
+of collecting and learning together, over whole rollouts, in alternating rounds. The ratio is that of the two in one
+round; it would be 1 for a simulator that costs nothing.
 """
 
 
 def measure(plan: Plan) -> dict[str, Any]:
     """Return times of a step of training."""
     try:
-        import dq_marine.agents.learners  # noqa: F401 - says what is missing
+        import dq_marine.agents.training.learners  # noqa: F401 - says what is missing
     except MissingDependencyError as error:
         raise NotInstalledError(str(error)) from error
     import torch
@@ -52,19 +55,21 @@ def rows_of_size(plan: Plan, settings: TrainingSettings) -> list[Row]:
     models = {OURS: model_of(settings), IDLE: model_of(settings, idle=True)}
     cases = {name: learning(model, settings) for name, model in models.items()}
     plan.tell(f"{settings.envs:,} environments, both in turn")
-    timings = compare(cases, plan.rounds, plan.progress)
+    timings = plan.compare(cases)
     for model in models.values():
         model.get_env().close()
     pairs = zip(timings[IDLE].samples, timings[OURS].samples, strict=True)
     ratios = [rounded(idle / ours) for idle, ours in pairs]
-    rows = [{"environments": settings.envs, "kind": name} | timing.row() for name, timing in timings.items()]
+    rows = [
+        {"environments": settings.envs, "kind": name} | timing.full_row() for name, timing in timings.items()
+    ]
     rows[0]["ratios"] = ratios
     return rows
 
 
 def model_of(settings: TrainingSettings, *, idle: bool = False) -> Any:
     """Return an untrained model with its environments, which logs nowhere."""
-    from dq_marine.agents.learners import make_model
+    from dq_marine.agents.training.learners import make_model
     from suite.idle_env import idle_likeness
 
     model = make_model(settings, seed=0, tensorboard=Path())
@@ -76,12 +81,12 @@ def model_of(settings: TrainingSettings, *, idle: bool = False) -> Any:
     return model
 
 
-def learning(model: Any, settings: TrainingSettings) -> Case:
+def learning(model: Any, settings: TrainingSettings) -> Timed:
     """Return the case of some rollouts, each collected and learned from."""
     assert isinstance(settings.algorithm, PPOSettings)
     rollout = settings.envs * settings.algorithm.n_steps
     steps = rollout * -(-LEAST_STEPS // rollout)
-    return Case(lambda: model.learn(steps, reset_num_timesteps=False), steps)
+    return Timed(lambda: model.learn(steps, reset_num_timesteps=False), steps)
 
 
 def tables(content: dict[str, Any]) -> str:
@@ -93,7 +98,7 @@ def tables(content: dict[str, Any]) -> str:
         ratios = ours["ratios"]
         rates = [f"{1e9 / row['median_ns']:,.0f}" for row in (ours, idle)]
         spread = f"{min(ratios):.2f} to {max(ratios):.2f}"
-        lines.append([f"{size:,}", *rates, digits(statistics.median(ratios)), spread])
+        lines.append([f"{size:,}", *rates, three_digits(statistics.median(ratios)), spread])
     header = ["environments", "steps a second (median)", "on nothing", "ratio (median)", "over the rounds"]
     return table(header, lines) + "\n" + noise(rows)
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from suite import machine
+from dq_marine.report import machine
+from dq_marine.util.files import with_folder, write_whole
+from suite import circumstances
 
 
 class OtherMachineError(Exception):
@@ -48,7 +49,7 @@ class Record:
         Raises:
             OtherMachineError: the record has figures of others, and is not to be begun afresh.
         """
-        here, installed = machine.machine(), machine.versions()
+        here, installed = machine.machine(), circumstances.versions()
         differing = differences(self.content["machine"], here) + differences(
             self.content["versions"], installed
         )
@@ -61,9 +62,9 @@ class Record:
             self.sections.clear()
             self.content["versions"] = {}
         self.content["machine"] = here
-        gone = {name for name, number in installed.items() if number is None}
-        kept = {name: number for name, number in self.content["versions"].items() if name in gone}
-        self.content["versions"] = installed | kept
+        self.content["versions"] = installed | {
+            name: number for name, number in self.content["versions"].items() if name not in installed
+        }
 
     def holds(self, name: str, stamp: dict[str, Any]) -> bool:
         """Whether a section was measured with the same sources and settings."""
@@ -83,7 +84,7 @@ class Record:
         self._write()
 
     def _write(self) -> None:
-        write_whole(self.path, as_json(self.content))
+        write_whole(with_folder(self.path), as_json(self.content))
 
 
 def stamp(sources: str, *, quick: bool, threads: tuple[int, ...]) -> dict[str, Any]:
@@ -96,7 +97,7 @@ def stamp(sources: str, *, quick: bool, threads: tuple[int, ...]) -> dict[str, A
     """
     return {
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
-        "commit": machine.commit(),
+        "commit": circumstances.commit(),
         "sources": sources,
         "quick": quick,
         "threads": list(threads),
@@ -117,14 +118,3 @@ def differences(then: dict[str, Any], now: dict[str, Any]) -> list[str]:
         for name in then
         if then[name] is not None and now.get(name) is not None and then[name] != now[name]
     ]
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a file so that it is there whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        beside.write_text(text)
-        os.replace(beside, path)
-    finally:
-        beside.unlink(missing_ok=True)

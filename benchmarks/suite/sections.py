@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from suite import (
+    baseline,
     batch,
     compile_times,
     endurance,
@@ -10,7 +11,6 @@ from suite import (
     memory,
     one_body,
     ppo,
-    rival,
     terms,
     water,
 )
@@ -18,6 +18,17 @@ from suite.plan import Section
 
 SECTIONS: dict[str, Section] = {
     module.SECTION.name: module.SECTION
-    for module in (one_body, terms, water, batch, environments, rival, ppo, compile_times, memory, endurance)
+    for module in (
+        one_body,
+        terms,
+        water,
+        batch,
+        environments,
+        baseline,
+        ppo,
+        compile_times,
+        memory,
+        endurance,
+    )
 }
 """By name."""

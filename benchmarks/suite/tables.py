@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-Row = dict[str, Any]
+from dq_marine.report.plan import Row
+from dq_marine.report.presentation import three_digits
+from dq_marine.report.showing.markdown_table import markdown_table
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a table whose first column is words and the others numbers."""
-    lines = [header, ["---", *["---:"] * (len(header) - 1)], *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+    """Return a table whose first column is words and the others numbers, as a paragraph."""
+    return markdown_table(header, rows) + "\n"
 
 
 def find(rows: Iterable[Row], **wanted: Any) -> Row | None:
@@ -30,26 +31,14 @@ def found(rows: Iterable[Row], **wanted: Any) -> Row:
     raise LookupError(f"no row has {wanted}")
 
 
-def distinct(rows: Iterable[Row], key: str) -> list[Any]:
-    """Return the values of an entry, each once, in order of appearance."""
-    return list(dict.fromkeys(row[key] for row in rows if key in row))
-
-
 def millions(row: Row | None, which: str = "best_ns") -> str:
     """Return a row's rate in millions a second."""
-    return "" if row is None else digits(1e3 / row[which])
+    return "" if row is None else three_digits(1e3 / row[which])
 
 
 def nanoseconds(row: Row | None, which: str = "best_ns") -> str:
     """Return a row's time."""
-    return "" if row is None else digits(row[which])
-
-
-def digits(number: float) -> str:
-    """Return a number to three digits, larger ones whole."""
-    if abs(number) >= 100.0:
-        return f"{number:,.0f}"
-    return f"{number:.1f}" if abs(number) >= 10.0 else f"{number:.2f}"
+    return "" if row is None else three_digits(row[which])
 
 
 def noise(rows: Iterable[Row]) -> str:

@@ -7,21 +7,23 @@ from typing import Any
 
 import numpy as np
 
-from dq_marine.engines.batch import Batch
+from dq_marine.report.plan import distinct
+from dq_marine.report.presentation import three_digits
+from dq_marine.report.timing import Timed
+from dq_marine.simulation.batch import Batch
 from suite.bodies import check_all_went, terms_added_up
 from suite.plan import Plan, Section
-from suite.tables import digits, distinct, find, nanoseconds, noise, table
-from suite.timing import Case, compare
+from suite.tables import find, nanoseconds, noise, table
 
 BODIES = 4096
 STEPS = 100
 ARITHMETICS = ("strict", "fast")
 
 METHOD = f"""\
-`Scene.batch` of {BODIES:,} BlueROV2 Heavies on one thread in float64, {STEPS} steps in a call, coasting without a
-wrench from the same random velocities in every call: inertia alone, then one term more in each row. Nanoseconds a step
-of a body, and what the row's term adds to the row above. A negative number is no error: a term can make a motion
-slower, so that steps take fewer iterations.
+`Scene.batch` of {BODIES:,} BlueROV2 Heavies on one thread in float64, {STEPS} steps in a call. The bodies coast without
+a wrench from the same random velocities in every call. The first row has inertia alone, and each row adds one term. The
+figures are nanoseconds per step of a body, and what the row's term adds to the row above. A negative number is not a
+mistake: a term can slow a motion down, so that its steps take fewer iterations.
 """
 
 
@@ -39,19 +41,19 @@ def measure(plan: Plan) -> dict[str, Any]:
             batches[name, arithmetic] = batch
             cases[name, arithmetic] = coasting(batch)
     plan.tell("all in turn")
-    timings = compare(cases, plan.rounds, plan.progress)
+    timings = plan.compare(cases)
     for batch in batches.values():
         check_all_went(batch)
     return {
         "bodies": bodies,
-        "rows": [{"terms": key[0], "arithmetic": key[1]} | timings[key].row() for key in cases],
+        "rows": [{"terms": key[0], "arithmetic": key[1]} | timings[key].full_row() for key in cases],
     }
 
 
-def coasting(batch: Batch) -> Case:
+def coasting(batch: Batch) -> Timed:
     """Return the case of a call that starts from the same state each time."""
     start = batch.get_state()
-    return Case(lambda: batch.step(steps=STEPS), batch.size * STEPS, before=lambda: batch.set_state(start))
+    return Timed(lambda: batch.step(steps=STEPS), batch.size * STEPS, before=lambda: batch.set_state(start))
 
 
 def tables(content: dict[str, Any]) -> str:
@@ -62,7 +64,7 @@ def tables(content: dict[str, Any]) -> str:
     for arithmetic in ARITHMETICS:
         column = [find(rows, terms=name, arithmetic=arithmetic) for name in names]
         times = [row["best_ns"] for row in column if row]
-        added = ["", *(digits(after - before) for before, after in pairwise(times))]
+        added = ["", *(three_digits(after - before) for before, after in pairwise(times))]
         for line, row, more in zip(lines, column, added, strict=True):
             line += [nanoseconds(row), more]
     header = ["ns a step", *(name for arithmetic in ARITHMETICS for name in (arithmetic, "adds"))]

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from dq_marine.manoeuvres.conditions import Conditions
-from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, over
 from dq_marine.manoeuvres.run import Run, Watch, unwatched
 from dq_marine.manoeuvres.series import tilt_notes
+from dq_marine.manoeuvres.setup import prepared
 from dq_marine.vehicles import Vehicle
 
 
@@ -62,20 +62,20 @@ def acceleration(
         InvalidInputError: a value is wrong, or the vehicle cannot be driven and steered.
         StepNotSolvableError: the integrator refused a step.
     """
-    craft = prepared(vehicle, conditions or Conditions())
-    throttle = craft.conditions.throttle
-    run = Run(craft, "acceleration", 0.0, watch)
-    steady = run.settle(lambda: run.keep_heading(throttle), lambda: run.speed, craft.full_speed)
+    setup = prepared(vehicle, conditions or Conditions())
+    throttle = setup.conditions.throttle
+    run = Run(setup, "acceleration", 0.0, watch)
+    steady = run.settle(lambda: run.keep_heading(throttle), lambda: run.speed, setup.full_speed)
     series = run.series()
     speed, time = series.velocity_body[:, 0], series.time
     top = float(speed[-1])
     time_63, time_90 = (first_time_at(time, speed, share * top) for share in (TIME_CONSTANT_SHARE, 0.9))
     return Acceleration(
         vehicle=vehicle.name,
-        length=craft.length,
+        length=setup.length,
         width=vehicle.dimensions.width,
-        settings=craft.settings,
-        step=craft.scene.step,
+        settings=setup.settings,
+        step=setup.scene.step,
         series=series,
         notes=(
             *(() if steady.settled else ("The speed was still changing at the end.",)),

@@ -8,18 +8,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.engines.one_body import OneBody
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres.steering import HEAVE, PITCH, RUDDER, SURGE, YAW, Order
+from dq_marine.physics.actuators.tables import ActuatorSet, Azimuth
+from dq_marine.simulation.one_body import OneBody
 from dq_marine.vehicles import Vehicle
-from dq_marine.vehicles.actuators import ActuatorSet, Azimuth
 
 Array = NDArray[np.float64]
 
 AXES = {SURGE: "surge", HEAVE: "heave", PITCH: "pitch", YAW: "yaw"}
 
 SLOWEST = 0.1
-"""Of the speed that scales are made for: below it, planes are not asked for moments that they no longer make."""
+"""Smallest surge speed with which the moment of the planes is computed, over the reference speed."""
 
 USEFUL = 1e-6
 """Share of what is asked for that thrusters must be able to make in an axis, to count as able to."""

@@ -6,12 +6,12 @@ import math
 from typing import NamedTuple
 
 from dq_marine.manoeuvres.course_stability import course_growth_rate
-from dq_marine.manoeuvres.craft import Craft
 from dq_marine.manoeuvres.run import Run, Watch, unwatched
+from dq_marine.manoeuvres.setup import Setup
 
 
 class Approach(NamedTuple):
-    """How a manoeuvre begins.
+    """The steady motion in which a manoeuvre begins.
 
     Attributes:
         run: at time 0 of the manoeuvre.
@@ -26,13 +26,13 @@ class Approach(NamedTuple):
     notes: tuple[str, ...]
 
 
-def approached(craft: Craft, phase: str, watch: Watch = unwatched) -> Approach:
+def approached(setup: Setup, phase: str, watch: Watch = unwatched) -> Approach:
     """Return a run on its steady approach, the helm having held the heading."""
-    throttle = craft.conditions.throttle
-    run = Run(craft, phase, craft.full_speed * throttle, watch)
-    steady = run.settle(lambda: run.keep_heading(throttle), lambda: run.speed, craft.full_speed)
+    throttle = setup.conditions.throttle
+    run = Run(setup, phase, setup.full_speed * throttle, watch)
+    steady = run.settle(lambda: run.keep_heading(throttle), lambda: run.speed, setup.full_speed)
     growth_rate = course_growth_rate(run)
-    run.begin(lead=craft.time_scale)
+    run.begin(lead=setup.time_scale)
     notes = []
     if not steady.settled:
         notes.append("The speed of the approach was still changing when the manoeuvre began.")

@@ -11,24 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.extras import extra_needed
 from dq_marine.manoeuvres.quantities import Result
 from dq_marine.manoeuvres.series import Series
-from dq_marine.report.files import write_whole
-from dq_marine.report.style import BLUE, GREEN, GREY, INK, ORANGE, SETTINGS, SKY, VERMILLION
+from dq_marine.util.extras import extra_needed
+from dq_marine.util.figures import RESOLUTION
+from dq_marine.util.figures import new_figure as empty_figure
+from dq_marine.util.files import with_folder, write_whole
+from dq_marine.util.plot_style import BLUE, GREEN, GREY, INK, ORANGE, SETTINGS, SKY, VERMILLION
 
 with extra_needed("drawing a manoeuvre", "report"):
     from matplotlib import rc_context
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
     from matplotlib.patches import Polygon
 
 Array = NDArray[np.float64]
 
 FORMATS = (".png", ".svg", ".pdf")
-RESOLUTION = 150
-"""Of a PNG [dots per inch]."""
-
 TRACK_COLOUR, HELM_COLOUR, HEADING_COLOUR, SPEED_COLOUR = BLUE, ORANGE, BLUE, GREEN
 MARK_COLOUR, GUIDE_COLOUR, HULL_COLOUR = VERMILLION, GREY, SKY
 
@@ -63,13 +60,12 @@ def save_picture(draw: Callable[[], Any], path: Path) -> None:
     with rc_context(settings):
         buffer = io.BytesIO()
         draw().savefig(buffer, format=kind, dpi=RESOLUTION, metadata=metadata)
-    write_whole(path, buffer.getvalue())
+    write_whole(with_folder(path), buffer.getvalue())
 
 
 def new_figure(result: Result, title: str, width: float = 11.0, height: float = 6.4) -> Any:
     """Return an empty figure with a heading [inches]."""
-    figure = Figure(figsize=(width, height), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = empty_figure(width, height)
     figure.suptitle(
         f"{result.vehicle}: {title}", fontsize=13.0, color=INK, fontweight="bold", x=0.01, ha="left"
     )
@@ -143,7 +139,7 @@ BOX: dict[str, Any] = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edge
 
 
 LEGEND: dict[str, Any] = {"frameon": True, "facecolor": "white", "edgecolor": "none", "framealpha": 0.85}
-"""Of a legend that stands on lines."""
+"""Style of a legend that covers lines."""
 
 
 def over_time(axes: Any, label: str) -> None:

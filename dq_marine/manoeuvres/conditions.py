@@ -1,17 +1,17 @@
-"""Under which conditions a manoeuvre is run."""
+"""The conditions under which a manoeuvre is run."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dq_marine.actuation_term import ACTUATIONS
 from dq_marine.checks import finite_number
 from dq_marine.errors import InvalidInputError
+from dq_marine.physics.actuators.build import ACTUATIONS
 
 
 @dataclass(frozen=True)
 class Conditions:
-    """What all manoeuvres have in common. The water is still and deep.
+    """The conditions that all manoeuvres have in common. The water is still and deep.
 
     Attributes:
         throttle: of the approach, above 0 and at most 1.

@@ -9,33 +9,33 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.checks import finite_number, positive_integer
 from dq_marine.errors import InvalidInputError
-from dq_marine.kernel.euler import quaternion_from_euler
-from dq_marine.manoeuvres.craft import ACCURATE_STEP, rounded_down, running_depth
 from dq_marine.manoeuvres.decrement import Decrement, decrement_of
 from dq_marine.manoeuvres.linear_modes import LinearMode, linear_mode, rest_of, stiffness_matrix
 from dq_marine.manoeuvres.quantities import Quantity, Result
 from dq_marine.manoeuvres.recorder import Recorder, sample_of
 from dq_marine.manoeuvres.run import WATCH_EVERY, Watch, unwatched
 from dq_marine.manoeuvres.series import Series
-from dq_marine.scene import Scene
+from dq_marine.manoeuvres.setup import ACCURATE_STEP, rounded_down, running_depth
+from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import Vehicle, vehicle_sheet
 
 Motion = Literal["roll", "pitch", "heave"]
 
 AXES = {"heave": 2, "roll": 3, "pitch": 4}
-"""In Fossen's order."""
+"""Index of each motion in Fossen's order."""
 
 RELEASE_ANGLE = math.radians(10.0)
 RELEASE_HEAVE = 0.05
-"""Of the length."""
+"""Heave at the release, over the length of the vehicle."""
 
 SAMPLES = 200
-"""At least so many a period."""
+"""Smallest number of samples per period."""
 
 GONE = 0.01
-"""Of the release, below which nothing is left to measure."""
+"""Share of the release below which the swings are too small to measure."""
 
 
 @dataclass(frozen=True, kw_only=True)

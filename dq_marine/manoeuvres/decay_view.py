@@ -18,7 +18,7 @@ from dq_marine.manoeuvres.canvas import (
 )
 from dq_marine.manoeuvres.decay import AXES, Decay, displacement_of
 from dq_marine.manoeuvres.decrement import Decrement
-from dq_marine.report.style import GREEN
+from dq_marine.util.plot_style import GREEN
 
 Array = NDArray[np.float64]
 

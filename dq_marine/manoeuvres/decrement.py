@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 SMALLEST_SHARE = 0.01
-"""Of the largest damping ratio: what is smaller counts as if it were so large."""
+"""Smallest damping ratio that counts with its own size in the fit, over the largest."""
 
 
 @dataclass(frozen=True)
 class Decrement:
-    """What the extremes of a decaying oscillation say.
+    """Period and damping, from the extremes of a decaying oscillation.
 
     A half range, from one extreme to the next and halved, is free of a constant offset. From one to the next, an
     oscillation of damping ratio zeta shrinks by exp(-pi zeta / sqrt(1 - zeta^2)) (any vibrations text). One with

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.vehicles import Vehicle
-from dq_marine.vehicles.munk import munk_growth_rate
+from dq_marine.vehicles.analysis.munk import munk_growth_rate
 
 QUICKNESS = 3.0
 """Angular frequency of heading and pitch control, in units of speed over length."""

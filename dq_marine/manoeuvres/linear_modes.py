@@ -1,4 +1,4 @@
-"""What the linear equations M nu' + D nu + G eta = 0 say of small free motions about rest, upright."""
+"""Small free motions about upright rest, by the linear equations M nu' + D nu + G eta = 0."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.physics.matrices import skew
 from dq_marine.vehicles import Vehicle
-from dq_marine.vehicles.model import skew
 
 Array = NDArray[np.float64]
 

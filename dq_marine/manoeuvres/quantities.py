@@ -1,4 +1,4 @@
-"""What comes out of a manoeuvre: numbers with their names and units, and what all results have in common."""
+"""Results of a manoeuvre: numbers with their names and units, and the base class of all results."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Quantity:
 
 @dataclass(frozen=True, kw_only=True)
 class Result:
-    """What every manoeuvre returns.
+    """The base class of the results that manoeuvres return.
 
     Attributes:
         manoeuvre: its name.

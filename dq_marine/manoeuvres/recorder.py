@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.engines.one_body import OneBody
 from dq_marine.manoeuvres.series import Series
+from dq_marine.simulation.one_body import OneBody
 
 Array = NDArray[np.float64]
 

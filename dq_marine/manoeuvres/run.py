@@ -1,4 +1,4 @@
-"""One run of a craft: it is placed, steered sample by sample, and recorded."""
+"""One run of a setup: it is placed, steered sample by sample, and recorded."""
 
 from __future__ import annotations
 
@@ -9,18 +9,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.kernel.quaternion import Quaternion
-from dq_marine.manoeuvres.craft import Craft
+from dq_marine.algebra.attitude import attitude_angles
+from dq_marine.algebra.quaternion import Quaternion
 from dq_marine.manoeuvres.keepers import helmsman_of, planesman_of
 from dq_marine.manoeuvres.recorder import Recorder, sample_of
-from dq_marine.manoeuvres.series import Series, attitude_angles
+from dq_marine.manoeuvres.series import Series
+from dq_marine.manoeuvres.setup import Setup
 from dq_marine.manoeuvres.steering import Order
 
 Watch = Callable[[str, float], None]
 """Told now and then what is being run, and the simulated time [s]."""
 
 SETTLED = 5e-4
-"""What a mean over the time of one length has still to change, over its scale, below which it is steady."""
+"""A quantity is steady when its mean over the time of one length changes by less than this share of its scale."""
 
 LONGEST_SETTLING = 600
 """Times of one length."""
@@ -37,7 +38,7 @@ def unwatched(phase: str, time: float) -> None:
 
 
 class Steady(NamedTuple):
-    """How a quantity settled.
+    """The value at which a quantity settled.
 
     Attributes:
         value: mean over the last time of one length.
@@ -49,24 +50,24 @@ class Steady(NamedTuple):
 
 
 class Run:
-    """A craft under way, its depth held; it starts at a speed ahead, heading north.
+    """A setup under way, its depth held; it starts at a speed ahead, heading north.
 
     Attributes:
-        craft: the craft.
+        setup: the setup.
         body: its state.
         heading: since the manoeuvre began, continuous [rad].
         sample: the latest.
     """
 
-    def __init__(self, craft: Craft, phase: str, speed: float, watch: Watch = unwatched) -> None:
-        self.craft = craft
-        self.body = craft.scene.stepper()
-        self.body.reset((0.0, 0.0, craft.depth), velocity_body=(speed, 0.0, 0.0, 0.0, 0.0, 0.0))
+    def __init__(self, setup: Setup, phase: str, speed: float, watch: Watch = unwatched) -> None:
+        self.setup = setup
+        self.body = setup.scene.stepper()
+        self.body.reset((0.0, 0.0, setup.depth), velocity_body=(speed, 0.0, 0.0, 0.0, 0.0, 0.0))
         self.heading = 0.0
         self.sample = sample_of(self.body)
-        moment = craft.steering.full_moment(craft.full_speed)
-        self._helmsman = helmsman_of(craft.vehicle, craft.full_speed, moment)
-        self._planesman = planesman_of(craft.vehicle, craft.full_speed)
+        moment = setup.steering.full_moment(setup.full_speed)
+        self._helmsman = helmsman_of(setup.vehicle, setup.full_speed, moment)
+        self._planesman = planesman_of(setup.vehicle, setup.full_speed)
         self._recorder = Recorder()
         self._phase, self._watch, self._samples = phase, watch, 0
         self._begin = 0.0
@@ -89,7 +90,7 @@ class Run:
     def displace(
         self, other: Run, quaternion_body_to_ned: Quaternion, velocity_body: NDArray[np.float64]
     ) -> None:
-        """Take over the place and the actuators of another run of the craft, at another attitude and velocity."""
+        """Take over the place and the actuators of another run of the setup, at another attitude and velocity."""
         self.body.reset(other.body.position_ned, quaternion_body_to_ned, velocity_body)
         state = other.body.get_state()
         state[BODY] = self.body.get_state()[BODY]
@@ -104,13 +105,13 @@ class Run:
 
     def steer(self, throttle: float, helm: float) -> None:
         """Advance by one sample under throttle and helm."""
-        craft, before = self.craft, self.sample
+        setup, before = self.setup, self.sample
         _, pitch, heading = attitude_angles(before.quaternion_body_to_ned)
-        depth_error = float(before.position_ned[2]) - craft.depth
+        depth_error = float(before.position_ned[2]) - setup.depth
         heave, moment = self._planesman.heave_and_pitch(depth_error, pitch, before.velocity_body)
         self._recorder.add(before, throttle, helm)
         order = Order(throttle, helm, heave, moment)
-        craft.steering.advance(self.body, order, float(before.velocity_body[0]), craft.sample_steps)
+        setup.steering.advance(self.body, order, float(before.velocity_body[0]), setup.sample_steps)
         self.sample = sample_of(self.body)
         turned = attitude_angles(self.sample.quaternion_body_to_ned)[2] - heading
         self.heading += math.remainder(turned, 2.0 * math.pi)
@@ -130,7 +131,7 @@ class Run:
         longest: int = LONGEST_SETTLING,
     ) -> Steady:
         """Advance until the mean of a quantity over the time of one length is steady, as measured by its scale."""
-        samples = max(1, round(self.craft.time_scale / self.craft.sample_period))
+        samples = max(1, round(self.setup.time_scale / self.setup.sample_period))
         mean, change = math.inf, math.inf
         for _ in range(longest):
             total = 0.0

@@ -1,4 +1,4 @@
-"""What a manoeuvre records: time series of pose, velocity and commands, with what follows from them."""
+"""The record of a manoeuvre: time series of pose, velocity and commands, with what follows from them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+
+from dq_marine.algebra.attitude import attitude_angles
 
 Array = NDArray[np.float64]
 
@@ -101,22 +103,9 @@ class Series:
 
 def euler_angles(quaternions: Array) -> Array:
     """Return roll, pitch and heading (zyx) of attitudes body to NED [rad], the heading continuous, shape (n, 3)."""
-    angles = np.array([attitude_angles(quaternion) for quaternion in quaternions])
+    angles = np.array([attitude_angles(quaternion) for quaternion in quaternions.tolist()])
     angles[:, 2] = np.unwrap(angles[:, 2])
     return angles
-
-
-def attitude_angles(quaternion: Array) -> tuple[float, float, float]:
-    """Return roll, pitch and heading (zyx) of one attitude body to NED [rad].
-
-    From the entries R32 and R33, R31, R21 and R11 of the rotation matrix.
-    """
-    w, x, y, z = quaternion.tolist()
-    return (
-        math.atan2(2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)),
-        math.asin(min(max(2.0 * (w * y - x * z), -1.0), 1.0)),
-        math.atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z)),
-    )
 
 
 def rotated(quaternions: Array, vectors: Array) -> Array:

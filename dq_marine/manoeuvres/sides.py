@@ -9,7 +9,7 @@ from dq_marine.errors import InvalidInputError
 Side = Literal["starboard", "port"]
 
 SIGNS: dict[str, float] = {"starboard": 1.0, "port": -1.0}
-"""Of helm and heading change towards a side."""
+"""Sign of the helm and of the heading change towards a side."""
 
 
 def sign_of(side: str) -> float:

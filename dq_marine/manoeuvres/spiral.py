@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from dq_marine.checks import positive_integer
 from dq_marine.manoeuvres.approach import approached
 from dq_marine.manoeuvres.conditions import Conditions, fraction
-from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees
 from dq_marine.manoeuvres.run import Run, Watch, unwatched
 from dq_marine.manoeuvres.series import tilt_notes
+from dq_marine.manoeuvres.setup import prepared
 from dq_marine.vehicles import Vehicle
 
 Array = NDArray[np.float64]
@@ -104,8 +104,8 @@ def spiral(
         StepNotSolvableError: the integrator refused a step.
     """
     helm, helms = fraction("helm", helm), positive_integer("helms", helms)
-    craft = prepared(vehicle, conditions or Conditions())
-    start = approached(craft, "spiral", watch)
+    setup = prepared(vehicle, conditions or Conditions())
+    start = approached(setup, "spiral", watch)
     shares = np.linspace(-1.0, 1.0, 2 * helms + 1)
     rising = helm * shares * np.abs(shares)
     to_port = _branch(start.run, rising[::-1])
@@ -115,10 +115,10 @@ def spiral(
     series = start.run.series()
     return Spiral(
         vehicle=vehicle.name,
-        length=craft.length,
+        length=setup.length,
         width=vehicle.dimensions.width,
-        settings=craft.settings | {"helm": helm, "helms": helms},
-        step=craft.scene.step,
+        settings=setup.settings | {"helm": helm, "helms": helms},
+        step=setup.scene.step,
         series=series,
         notes=(*start.notes, *_notes(points, width), *tilt_notes(series)),
         to_port=to_port,
@@ -159,7 +159,7 @@ def _zero(branch: Array) -> float:
 
 
 def _branch(run: Run, helms: Array) -> tuple[SpiralPoint, ...]:
-    throttle, scale = run.craft.conditions.throttle, 1.0 / run.craft.time_scale
+    throttle, scale = run.setup.conditions.throttle, 1.0 / run.setup.time_scale
     points = []
     for helm in helms.tolist():
         advance = partial(run.steer, throttle, helm)
@@ -170,9 +170,9 @@ def _branch(run: Run, helms: Array) -> tuple[SpiralPoint, ...]:
 
 def _notes(points: tuple[SpiralPoint, ...], width: float | None) -> tuple[str, ...]:
     notes = []
-    restless = sum(not point.settled for point in points)
-    if restless:
-        notes.append(f"At {restless} of {len(points)} helms the yaw rate did not become steady.")
+    time_varying = sum(not point.settled for point in points)
+    if time_varying:
+        notes.append(f"At {time_varying} of {len(points)} helms the yaw rate did not become steady.")
     if width is None:
         notes.append("Full helm against the turn did not reverse it: the loop is wider than the helm.")
     elif width > SMALLEST_LOOP:

@@ -50,9 +50,11 @@ def _draw_branch(
     axes.plot(
         helm, rate, color=colour, marker=marker, linestyle=dash, markersize=5.0, linewidth=1.4, label=label
     )
-    restless = [(x, y) for x, y, point in zip(helm, rate, points, strict=True) if not point.settled]
-    if restless:
-        axes.plot(*zip(*restless, strict=True), "o", color="white", markeredgecolor=colour, markersize=5.0)
+    time_varying = [(x, y) for x, y, point in zip(helm, rate, points, strict=True) if not point.settled]
+    if time_varying:
+        axes.plot(
+            *zip(*time_varying, strict=True), "o", color="white", markeredgecolor=colour, markersize=5.0
+        )
 
 
 def _verdict(result: Spiral) -> str:

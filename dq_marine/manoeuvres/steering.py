@@ -1,4 +1,4 @@
-"""How a vehicle is steered: what carries out throttle, helm, and the orders of who holds the depth."""
+"""Steering of a vehicle: carries out throttle, helm and planes."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from dq_marine.engines.one_body import OneBody
 from dq_marine.errors import InvalidInputError
+from dq_marine.simulation.one_body import OneBody
 from dq_marine.vehicles import Vehicle
 
 SURGE, HEAVE, PITCH, YAW = 0, 2, 4, 5
@@ -20,7 +20,7 @@ RUDDER = math.radians(35.0)
 
 
 class Order(NamedTuple):
-    """What is asked for at one time.
+    """The orders at one time.
 
     Attributes:
         throttle: of the thrust along x, -1 (full astern) to 1.

@@ -11,17 +11,17 @@ import numpy as np
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres.approach import approached
 from dq_marine.manoeuvres.conditions import Conditions
-from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees, over
 from dq_marine.manoeuvres.run import Watch, unwatched
 from dq_marine.manoeuvres.series import tilt_notes
+from dq_marine.manoeuvres.setup import prepared
 from dq_marine.vehicles import Vehicle
 
 Order = Literal["astern", "off"]
 
 THROTTLES = {"astern": -1.0, "off": 0.0}
-"""By order."""
+"""Throttle for each order."""
 
 REMAINING = {"astern": 0.0, "off": 0.05}
 """Share of the approach's speed at which the vehicle counts as stopped: without thrust it never quite is."""
@@ -91,10 +91,10 @@ def stopping(
     """
     if order not in THROTTLES:
         raise InvalidInputError(f"order = {order!r} is unknown; give 'astern' or 'off'")
-    craft = prepared(vehicle, conditions or Conditions())
-    start = approached(craft, "stopping", watch)
+    setup = prepared(vehicle, conditions or Conditions())
+    start = approached(setup, "stopping", watch)
     run, slow = start.run, REMAINING[order] * start.speed
-    while run.speed > slow and run.time < LONGEST * craft.time_scale:
+    while run.speed > slow and run.time < LONGEST * setup.time_scale:
         run.steer(THROTTLES[order], 0.0)
     series = run.series()
     time = series.time
@@ -102,10 +102,10 @@ def stopping(
     ahead, starboard = series.along_and_across().T
     return Stopping(
         vehicle=vehicle.name,
-        length=craft.length,
+        length=setup.length,
         width=vehicle.dimensions.width,
-        settings=craft.settings | {"order": order},
-        step=craft.scene.step,
+        settings=setup.settings | {"order": order},
+        step=setup.scene.step,
         series=series,
         notes=(
             *start.notes,

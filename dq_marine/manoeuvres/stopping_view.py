@@ -20,7 +20,7 @@ from dq_marine.manoeuvres.stopping import Stopping
 
 HULLS = 6
 SHOWN_APPROACH = 0.25
-"""Of the time to stop, at most."""
+"""Largest part of the approach that is shown, over the time to stop."""
 
 ORDERS = {"astern": "full astern", "off": "thrust off"}
 

@@ -9,7 +9,7 @@ from rich.text import Text
 
 from dq_marine.manoeuvres.quantities import Quantity, Result
 from dq_marine.manoeuvres.series import Series
-from dq_marine.report.files import write_csv
+from dq_marine.util.files import with_folder, write_csv
 
 SHIP = 20.0
 """Length from which the limits for ships are shown as a yardstick [m]."""
@@ -56,4 +56,4 @@ def write_series(series: Series, path: Path) -> None:
     """
     columns = {name: column.tolist() for name, column in series.columns().items()}
     rows = zip(*columns.values(), strict=True)
-    write_csv(path, (dict(zip(columns, row, strict=True)) for row in rows))
+    write_csv(with_folder(path), (dict(zip(columns, row, strict=True)) for row in rows))

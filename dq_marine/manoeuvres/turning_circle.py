@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from dq_marine.manoeuvres.approach import approached
 from dq_marine.manoeuvres.conditions import Conditions, fraction
-from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees, over
 from dq_marine.manoeuvres.run import Run, Watch, unwatched
 from dq_marine.manoeuvres.series import Series, tilt_notes
+from dq_marine.manoeuvres.setup import prepared
 from dq_marine.manoeuvres.sides import Side, sign_of
 from dq_marine.vehicles import Vehicle
 
@@ -30,7 +30,7 @@ LONGEST = 300.0
 """Times of one length that the turn may take."""
 
 STEADY_CHANGE = 0.002
-"""Of time and width from one half circle to the next, below which the turn is steady."""
+"""Relative change of time and width from one half circle to the next below which the turn is steady."""
 
 
 @dataclass(frozen=True)
@@ -158,9 +158,9 @@ def turning_circle(
         StepNotSolvableError: the integrator refused a step.
     """
     helm, sign = fraction("helm", helm), sign_of(side)
-    craft = prepared(vehicle, conditions or Conditions())
-    start = approached(craft, "turning circle", watch)
-    run, throttle = start.run, craft.conditions.throttle
+    setup = prepared(vehicle, conditions or Conditions())
+    start = approached(setup, "turning circle", watch)
+    run, throttle = start.run, setup.conditions.throttle
     settled = _turn(run, throttle, sign * helm)
     series = run.series()
     turned = sign * series.heading_change
@@ -170,10 +170,10 @@ def turning_circle(
     steady = steady_turn(series, sign)
     return TurningCircle(
         vehicle=vehicle.name,
-        length=craft.length,
+        length=setup.length,
         width=vehicle.dimensions.width,
-        settings=craft.settings | {"helm": helm, "side": side},
-        step=craft.scene.step,
+        settings=setup.settings | {"helm": helm, "side": side},
+        step=setup.scene.step,
         series=series,
         notes=(*start.notes, *_notes(steady, settled, series), *tilt_notes(series)),
         side=side,
@@ -193,7 +193,7 @@ def turning_circle(
 def _turn(run: Run, throttle: float, helm: float) -> bool:
     """Turn until the turn is steady or has taken its time; return whether it is."""
     marks = [(0.0, run.sample.position_ned)]
-    while len(marks) <= MOST_HALF_CIRCLES and run.time < LONGEST * run.craft.time_scale:
+    while len(marks) <= MOST_HALF_CIRCLES and run.time < LONGEST * run.setup.time_scale:
         run.steer(throttle, helm)
         if math.copysign(1.0, helm) * run.heading >= len(marks) * math.pi:
             marks.append((run.time, run.sample.position_ned))

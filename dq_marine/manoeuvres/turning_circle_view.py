@@ -22,7 +22,7 @@ from dq_marine.manoeuvres.canvas import (
 )
 from dq_marine.manoeuvres.sides import SIGNS
 from dq_marine.manoeuvres.turning_circle import TurningCircle
-from dq_marine.report.style import PURPLE
+from dq_marine.util.plot_style import PURPLE
 
 Array = NDArray[np.float64]
 

@@ -26,7 +26,7 @@ VIEWS: dict[str, Callable[[Any], Any]] = {
     "turning-circle": turning_circle_view.draw,
     "zig-zag": zig_zag_view.draw,
 }
-"""By the manoeuvre's name: result in, matplotlib figure out."""
+"""Function that draws each manoeuvre's result, by the manoeuvre's name; it returns a matplotlib figure."""
 
 
 def save_plot(result: Result, path: Path) -> None:

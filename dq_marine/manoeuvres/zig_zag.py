@@ -14,11 +14,11 @@ from dq_marine.checks import finite_number, positive_integer
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres.approach import approached
 from dq_marine.manoeuvres.conditions import Conditions, fraction
-from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees, over
 from dq_marine.manoeuvres.run import Watch, unwatched
 from dq_marine.manoeuvres.series import Series, tilt_notes
+from dq_marine.manoeuvres.setup import prepared
 from dq_marine.manoeuvres.sides import Side, sign_of
 from dq_marine.vehicles import Vehicle
 
@@ -28,7 +28,7 @@ LONGEST = 300.0
 """Times of one length that the test may take."""
 
 LARGEST_HEADING = math.pi
-"""Beyond which the helm is not waited for any longer [rad]."""
+"""Heading change beyond which the manoeuvre is given up [rad]."""
 
 INITIAL_TURN = math.radians(10.0)
 """Heading change up to which the initial turning ability is measured."""
@@ -60,7 +60,7 @@ class ZigZagHelmsman:
 
 @dataclass(frozen=True)
 class Swing:
-    """What happened after a reversal of the helm.
+    """The motion after a reversal of the helm.
 
     Attributes:
         time: of the reversal [s].
@@ -177,15 +177,15 @@ def zig_zag(
     if helm is not None:
         fraction("helm", helm)
     overshoots = positive_integer("overshoots", overshoots)
-    craft = prepared(vehicle, conditions or Conditions())
-    helm = min(angle / craft.steering.full_angle, 1.0) if helm is None else float(helm)
-    start = approached(craft, "zig-zag", watch)
-    run, throttle = start.run, craft.conditions.throttle
+    setup = prepared(vehicle, conditions or Conditions())
+    helm = min(angle / setup.steering.full_angle, 1.0) if helm is None else float(helm)
+    start = approached(setup, "zig-zag", watch)
+    run, throttle = start.run, setup.conditions.throttle
     helmsman = ZigZagHelmsman(angle, helm, sign)
     while (
         helmsman.reversals <= overshoots
         and abs(run.heading) < LARGEST_HEADING
-        and run.time < LONGEST * craft.time_scale
+        and run.time < LONGEST * setup.time_scale
     ):
         run.steer(throttle, helmsman.order(run.heading))
     series = run.series()
@@ -193,10 +193,10 @@ def zig_zag(
     turning = first_time_at(series.time, sign * series.heading_change, INITIAL_TURN)
     return ZigZag(
         vehicle=vehicle.name,
-        length=craft.length,
+        length=setup.length,
         width=vehicle.dimensions.width,
-        settings=craft.settings | {"angle_deg": math.degrees(angle), "helm": helm, "side": side},
-        step=craft.scene.step,
+        settings=setup.settings | {"angle_deg": math.degrees(angle), "helm": helm, "side": side},
+        step=setup.scene.step,
         series=series,
         notes=(*start.notes, *_notes(swings, series), *tilt_notes(series)),
         angle=angle,

@@ -1,4 +1,4 @@
-"""Variations of a matrix that keep it symmetric, positive (semi)definite or dissipative, whatever is drawn.
+"""Variations of a matrix that keep it symmetric, positive (semi)definite or dissipative in every draw.
 
 A congruence A' = T A T^T with an invertible T has as many positive, zero and negative eigenvalues as a symmetric A
 (Sylvester's law of inertia), and as v . A' v = (T^T v) . A (T^T v), it takes energy wherever A does.

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import AfterValidator, Discriminator, Tag, model_validator
 
-from dq_marine.vehicles.fields import Positive, Table
+from dq_marine.physics.fields import Positive, Table
 
 
 def _ordered(limits: tuple[float, float]) -> tuple[float, float]:
@@ -124,7 +124,7 @@ Distribution: TypeAlias = Annotated[
         ),
     ),
 ]
-"""Of one number."""
+"""Distribution of one number."""
 
 
 def between(lowest: float, highest: float, what: str) -> Any:

@@ -97,10 +97,9 @@ def varied_added_mass(draw: AddedMassDraw, vehicle: Vehicle, rng: np.random.Gene
     """Return the entries of another added mass: its symmetric part, by a congruence."""
     if draw == AddedMassDraw():
         return {}
-    added = np.array(vehicle.added_mass)
     scale = np.sqrt(np.diag(vehicle.mass_matrix))
     coupling = drawn_coupling(draw.coupling, 6, rng)
-    varied = scaled_and_coupled(0.5 * (added + added.T), _factors(draw.factor, 6, rng), coupling, scale)
+    varied = scaled_and_coupled(vehicle.added_mass_matrix, _factors(draw.factor, 6, rng), coupling, scale)
     return {"added_mass": (0.5 * (varied + varied.T)).tolist(), "added_mass_asymmetry": 0.0}
 
 

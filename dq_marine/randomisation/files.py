@@ -10,8 +10,8 @@ from typing import TypeVar
 from pydantic import ValidationError
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.physics.fields import Table
 from dq_marine.randomisation.distributions import KINDS
-from dq_marine.vehicles.fields import Table
 from dq_marine.vehicles.validation import mistake
 
 _FOLDER = Path(__file__).parent

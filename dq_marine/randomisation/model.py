@@ -1,4 +1,4 @@
-"""What a randomisation file says, as a whole, and the vehicles that are drawn from it."""
+"""A randomisation file, and the vehicles that are drawn from it."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from dq_marine.checks import positive_integer
 from dq_marine.errors import InvalidInputError
+from dq_marine.physics.fields import Table
 from dq_marine.randomisation.drawing import (
     varied_actuators,
     varied_added_mass,
@@ -27,17 +28,16 @@ from dq_marine.randomisation.tables import (
     RigidBodyDraw,
 )
 from dq_marine.vehicles import Vehicle
-from dq_marine.vehicles.fields import Table
 from dq_marine.vehicles.validation import validated
 
 ATTEMPTS = 100
-"""To draw a vehicle that passes all checks."""
+"""Attempts to draw a vehicle that passes all checks."""
 
 LARGEST_POOL = 100_000
 
 
 class Randomisation(Table):
-    """What is drawn, and from which distributions.
+    """The numbers that are drawn, and their distributions.
 
     Attributes:
         description: one sentence.

@@ -1,4 +1,4 @@
-"""How far drawn vehicles spread in the numbers that say how they will behave."""
+"""Spread of drawn vehicles in the numbers that determine their behaviour."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from dq_marine.vehicles.model import MOTIONS
 ROTATIONS = MOTIONS[3:]
 
 ROUND_OFF = 5e-9
-"""Of a file's numbers: net weight over weight below which a vehicle is neutral."""
+"""Net weight over weight below which a vehicle counts as neutral: the rounding of a file's numbers."""
 
 
 @dataclass(frozen=True)

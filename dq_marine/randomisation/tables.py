@@ -6,8 +6,8 @@ from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
+from dq_marine.physics.fields import NonNegative, Table
 from dq_marine.randomisation.distributions import Angle, Factor, Factors3, Factors6, NetWeight, Offsets3
-from dq_marine.vehicles.fields import NonNegative, Table
 
 Coupling = Annotated[float, Field(ge=0.0, le=0.15)]
 """Largest correlation added between two axes: up to it, one plus a 6x6 matrix of them is diagonally dominant."""
@@ -33,11 +33,11 @@ class RigidBodyDraw(Table):
 class BuoyancyDraw(Table):
     """The displaced water.
 
-    A vessel that floats displaces its weight, whatever is drawn: its volume and the width of its hull follow the mass;
+    A vessel that floats displaces its weight in every draw: its volume and the width of its hull follow the mass;
     of what is below only `righting_lever` applies, to its metacentric heights.
 
     Attributes:
-        volume: factor, whatever the mass: what is neutral then sinks or rises.
+        volume: factor, independent of the mass, so that a neutral vehicle sinks or rises.
         net_weight: added to (W - B)/W; the volume follows the mass, as if ballasted.
         center: offsets of the centre of buoyancy [m], however short the vehicle's righting lever is.
         righting_lever: factor of the righting moment's lever, |W r_G - B r_B| / W; the centre of buoyancy follows.
@@ -54,7 +54,7 @@ class BuoyancyDraw(Table):
 
     @property
     def places_center(self) -> bool:
-        """Whether the centre of buoyancy follows from how the vehicle rests."""
+        """Whether the centre of buoyancy follows from the attitude at rest."""
         return (self.righting_lever, self.list_angle, self.trim_angle) != (None, None, None)
 
     @model_validator(mode="after")
@@ -97,12 +97,12 @@ class DampingDraw(Table):
 
 
 class ActuatorsDraw(Table):
-    """What the actuators reach.
+    """Factors of what the actuators deliver.
 
     Attributes:
         wrench: factors of the largest force and moment of each axis.
-        thrust: factor of the thrust of every propeller, each for itself.
-        fins: factor of what every fin does, each for itself.
+        thrust: factor of the thrust of every propeller, drawn separately for each.
+        fins: factor of the force of every fin, drawn separately for each.
     """
 
     wrench: Factors6 | None = None

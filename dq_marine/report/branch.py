@@ -15,16 +15,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.engines.compilation import compile_function
-from dq_marine.engines.one_body import AT_REST
-from dq_marine.engines.packing import make_load, pack, store, structure_type
-from dq_marine.kernel.drift import MAX_PIECES, DriftScheme, Solve, make_drift_by, make_newton
-from dq_marine.kernel.drift_report import ACCEPTED_RESIDUAL, DIRECT, DriftReport
-from dq_marine.kernel.inertia import Inertia
-from dq_marine.kernel.matrix3 import transform
-from dq_marine.kernel.midpoint_drift import MIDPOINT
-from dq_marine.kernel.paper_drift import PAPER
-from dq_marine.kernel.vector3 import Vector3, dot, scale
+from dq_marine.algebra.matrix3 import transform
+from dq_marine.algebra.vector3 import Vector3, dot, scale
+from dq_marine.backend.compilation import compile_function
+from dq_marine.backend.packing import make_load, pack, store, structure_type
+from dq_marine.integrator.body import AT_REST
+from dq_marine.integrator.drift import MAX_PIECES, DriftScheme, Solve, make_drift_by, make_newton
+from dq_marine.integrator.drift_report import ACCEPTED_RESIDUAL, DIRECT, DriftReport
+from dq_marine.integrator.inertia import Inertia
+from dq_marine.integrator.midpoint_drift import MIDPOINT
+from dq_marine.integrator.paper_drift import PAPER
 
 SCHEMES = {"dqvi2": MIDPOINT, "dqvi_paper": PAPER}
 """Drifts of the methods that take one in a step."""

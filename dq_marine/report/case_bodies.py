@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.vehicles.model import STANDARD_GRAVITY, skew
+from dq_marine.physics.constants import GRAVITY
+from dq_marine.physics.matrices import skew
 
 Array = NDArray[np.float64]
 
@@ -66,7 +67,7 @@ class Rexrov:
     @property
     def arm(self) -> Array:
         """W r_G - B r_B [N m]."""
-        return np.array([0.0, 0.0, self.mass * STANDARD_GRAVITY * self.buoyancy_height])
+        return np.array([0.0, 0.0, self.mass * GRAVITY * self.buoyancy_height])
 
 
 def supply_vessel() -> Array:

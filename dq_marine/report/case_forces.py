@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from dq_marine.kernel.dual_quaternion import DualQuaternion, pose_position
-from dq_marine.kernel.quaternion import world_down_in_body
-from dq_marine.kernel.spatial import Spatial, spatial_add_scaled, spatial_scale
-from dq_marine.kernel.vector3 import scale
+from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_position
+from dq_marine.algebra.quaternion import world_down_in_body
+from dq_marine.algebra.spatial import Spatial, spatial_add_scaled, spatial_scale
+from dq_marine.algebra.vector3 import scale
 
 
 class Oscillation(NamedTuple):

@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dq_marine.engines.one_body import OneBody
-from dq_marine.kernel.euler import quaternion_from_euler
-from dq_marine.kernel.spatial import from_fossen
+from dq_marine.algebra.euler import quaternion_from_euler
+from dq_marine.algebra.spatial import from_fossen
+from dq_marine.physics.term import ForceTerm
 from dq_marine.report.case_bodies import SUPPLY_VESSEL_RESTORING, Rexrov, remus_100, supply_vessel
 from dq_marine.report.case_forces import Oscillation, Waterplane, oscillation, waterplane
 from dq_marine.report.closed_forms import BroadsideTurn, FreeTop
 from dq_marine.report.end_state import EndState
 from dq_marine.report.physics import Physics
-from dq_marine.terms import ForceTerm
+from dq_marine.simulation.one_body import OneBody
 from dq_marine.vehicles import load_vehicle
-from dq_marine.vehicles.lamb import ellipsoid_mass_matrix
+from dq_marine.vehicles.analysis.lamb import ellipsoid_mass_matrix
 
 Array = NDArray[np.float64]
 

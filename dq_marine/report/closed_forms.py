@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.extras import extra_needed
 from dq_marine.report.end_state import EndState
+from dq_marine.util.extras import extra_needed
 
 Array = NDArray[np.float64]
 

@@ -12,14 +12,15 @@ from rich.text import Text
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.report.cases import CASES
-from dq_marine.report.files import write_csv, write_json, write_whole
-from dq_marine.report.page import Page, make_page, record
-from dq_marine.report.page_html import html_of
-from dq_marine.report.page_markdown import FIGURES, markdown_of
 from dq_marine.report.plan import Plan, Rows
+from dq_marine.report.presentation import tally
 from dq_marine.report.registry import STUDIES
 from dq_marine.report.runner import InterruptedRunError, measure, measured
+from dq_marine.report.showing.page import Page, make_page, record
+from dq_marine.report.showing.page_html import html_of
+from dq_marine.report.showing.page_markdown import FIGURES, markdown_of
 from dq_marine.report.store import Store
+from dq_marine.util.files import with_folder, write_csv, write_json, write_whole
 
 
 @dataclass(frozen=True)
@@ -87,11 +88,11 @@ def write_report(page: Page, results: dict[str, Rows], out: Path) -> None:
     """Write the page as HTML and Markdown, its figures, and the points."""
     for chapter in page.chapters:
         for picture in chapter.pictures:
-            write_whole(out / FIGURES / f"{picture.name}.svg", standalone(picture.svg))
-            write_whole(out / FIGURES / f"{picture.name}.png", picture.png)
+            write_whole(with_folder(out / FIGURES / f"{picture.name}.svg"), standalone(picture.svg))
+            write_whole(with_folder(out / FIGURES / f"{picture.name}.png"), picture.png)
     for name, rows in results.items():
-        write_csv(out / "data" / f"{name}.csv", rows)
-    write_json(out / "results.json", record(page, results))
+        write_csv(with_folder(out / "data" / f"{name}.csv"), rows)
+    write_json(with_folder(out / "results.json"), record(page, results))
     write_whole(out / "report.md", markdown_of(page))
     write_whole(out / "index.html", html_of(page))
 
@@ -109,8 +110,7 @@ def show(page: Page, out: Path, console: Console) -> None:
             Text(chapter.study.title, style="bold"), Text(chapter.findings[0] if chapter.findings else "")
         )
     console.print(table)
-    passed = len(page.checks) - len(page.failures)
-    console.print(f"Checks: {passed} of {len(page.checks)} passed")
+    console.print(tally(page.checks))
     for line in failure_lines(page):
         console.print(Text(line, style="bold red"), soft_wrap=True)
     console.print(f"Wrote {out / 'index.html'}, {out / 'report.md'}, {out / 'results.json'}", soft_wrap=True)

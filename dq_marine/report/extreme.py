@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from dq_marine.engines.one_body import OneBody
 from dq_marine.report.branch import LONGEST_STRIDE, SCHEMES, confirmed_pieces
 from dq_marine.report.cells import Cell, cells, summary
 from dq_marine.report.end_state import end_of, errors
-from dq_marine.report.extreme_view import (
+from dq_marine.report.methods import METHODS, Method
+from dq_marine.report.plan import Plan, Row, Rows, Study, Unit
+from dq_marine.report.showing.extreme_view import (
     ACCURATE,
     BOUNDED,
     FAILED,
@@ -23,9 +24,8 @@ from dq_marine.report.extreme_view import (
     findings,
     tables,
 )
-from dq_marine.report.methods import METHODS, Method
-from dq_marine.report.plan import Plan, Row, Rows, Study, Unit
 from dq_marine.report.trial import BLEW_UP, DONE, Trial, finite, overflow_allowed, trial
+from dq_marine.simulation.one_body import OneBody
 
 STEPS = 50
 ACCURATE_ERROR = 0.01
@@ -110,7 +110,7 @@ def row_of(cell: Cell, method: Method, exact: OneBody | None) -> Row:
         "has_reference": exact is not None,
         "error": finite(error),
         "energy_ratio": finite(ratio),
-        "rescued": body.steps_rescued,
+        "fallbacks": body.fallback_steps,
         "steps": body.steps_taken,
     }
     return row | branches(method, body, history)

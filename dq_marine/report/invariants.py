@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.engines.one_body import OneBody
-from dq_marine.kernel.quaternion import world_down_in_body
+from dq_marine.algebra.quaternion import world_down_in_body
 from dq_marine.report.physics import Physics
+from dq_marine.simulation.one_body import OneBody
 
 Array = NDArray[np.float64]
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-from dq_marine.kernel.dual_quaternion import DualQuaternion, pose_position
-from dq_marine.kernel.quaternion import rotate_inverse
-from dq_marine.kernel.spatial import Spatial
-from dq_marine.kernel.vector3 import scale
-from dq_marine.scene import Scene
-from dq_marine.terms import ForceTerm
+from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_position
+from dq_marine.algebra.quaternion import rotate_inverse
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.vector3 import scale
+from dq_marine.physics.term import ForceTerm
+from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import Vehicle, load_vehicle
 
 VEHICLE = "bluerov2_heavy"
@@ -26,23 +27,32 @@ def spring(stiffness: float, pose: DualQuaternion, time: float) -> Spatial:
 
 def scenes(order: int = 2) -> dict[str, Scene]:
     """Return scenes with no term, with each alone, and with all, by what they have."""
+    terms = terms_alone(forces=[ForceTerm("spring", spring, 5.0)])
+    return {name: Scene(**given, step=STEP, order=order) for name, given in terms.items()}
+
+
+def terms_alone(forces: Sequence[ForceTerm] = ()) -> dict[str, dict[str, Any]]:
+    """Return arguments of scenes with no term, with each alone, and with all, by what they have.
+
+    Args:
+        forces: of the user, one term more if there are any.
+    """
     own = load_vehicle(VEHICLE)
     bare = neutral(own)
     linear = changed(bare, "damping", linear=own.damping.linear)
-    mooring = [ForceTerm("spring", spring, 5.0)]
-    arguments: dict[str, dict[str, Any]] = {
+    mooring = {"forces": list(forces)} if forces else {}
+    return {
         NOTHING: {"vehicle": bare},
         "net weight": {"vehicle": changed(bare, "buoyancy", volume=own.buoyancy.volume)},
         "righting moment": {"vehicle": changed(bare, "buoyancy", center=own.buoyancy.center)},
         "current": {"vehicle": bare, "current": CURRENT},
-        "a force of your own": {"vehicle": bare, "forces": mooring},
+        **({"a force of your own": {"vehicle": bare, **mooring}} if forces else {}),
         "linear damping": {"vehicle": linear},
         "linear and quadratic damping": {
             "vehicle": changed(linear, "damping", quadratic=own.damping.quadratic)
         },
-        EVERYTHING: {"vehicle": own, "current": CURRENT, "forces": mooring},
+        EVERYTHING: {"vehicle": own, "current": CURRENT, **mooring},
     }
-    return {name: Scene(**given, step=STEP, order=order) for name, given in arguments.items()}
 
 
 def neutral(vehicle: Vehicle) -> Vehicle:

@@ -1,8 +1,8 @@
 """What libraries offer for the same motions: SciPy's solvers with variable steps, and MuJoCo for what it can represent.
 
-SciPy is given the right-hand side compiled, of the same functions that the rivals are made of: what is timed is SciPy's
-own work, not NumPy on vectors of three. MuJoCo has neither the inertia of added mass nor a coupled M; it is given free
-rigid bodies in a vacuum, the only cases that are the same motion.
+SciPy is given the right-hand side compiled, of the same functions that the baselines are made of: what is timed is
+SciPy's own work, not NumPy on vectors of three. MuJoCo has neither the inertia of added mass nor a coupled M; it is
+given free rigid bodies in a vacuum, the only cases that are the same motion.
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.engines.compilation import compile_function
-from dq_marine.engines.packing import make_load, pack, store, structure_type
-from dq_marine.extras import extra_needed
-from dq_marine.kernel.inertia import momentum_from_twist, twist_from_momentum
-from dq_marine.kernel.spatial import from_fossen
-from dq_marine.kernel.step import Composition, StepParameters
+from dq_marine.algebra.spatial import from_fossen
+from dq_marine.backend.compilation import compile_function
+from dq_marine.backend.packing import make_load, pack, store, structure_type
+from dq_marine.integrator.inertia import momentum_from_twist, twist_from_momentum
+from dq_marine.integrator.step import Composition, StepParameters
+from dq_marine.report.baselines.dynamics import Point
+from dq_marine.report.baselines.rk4_quaternion import make_rates, make_rk4_quaternion
 from dq_marine.report.cases import Case
 from dq_marine.report.end_state import EndState
-from dq_marine.report.methods import compose_rival
+from dq_marine.report.methods import compose_baseline
 from dq_marine.report.mujoco_bodies import Integrator, refusal, run
 from dq_marine.report.ode import end_state, start_of
-from dq_marine.rivals.dynamics import Point
-from dq_marine.rivals.rk4_quaternion import make_rates, make_rk4_quaternion
+from dq_marine.util.extras import extra_needed
 
 Array = NDArray[np.float64]
 Setting: TypeAlias = Literal["rtol", "step"]
@@ -105,7 +105,7 @@ def scipy_run(method: str, case: Case, rtol: float) -> LibraryRun:
 
 def make_compiled_derivative(case: Case) -> Callable[[float, Array], Array]:
     """Return (t, y) -> y', compiled: y as in `report.ode`, but its position in the frame that drifts with the water."""
-    composition, parameters_at = compose_rival(make_rk4_quaternion, case.physics)
+    composition, parameters_at = compose_baseline(make_rk4_quaternion, case.physics)
     parameters = parameters_at(1.0)
     numbers, wrench = pack(parameters), case.wrench
     compiled = compiled_rates(composition, structure_type(parameters))

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from dq_marine.report.cases import CASES, Case
 from dq_marine.report.invariants import energy, momentum_errors
-from dq_marine.report.long_run_view import checks, drawings, findings, tables
 from dq_marine.report.methods import METHODS, Method
 from dq_marine.report.plan import Plan, Rows, Study, Unit
+from dq_marine.report.showing.long_run_view import checks, drawings, findings, tables
 from dq_marine.report.trial import DONE, evaluations_of, finite, overflow_allowed, trial
 from dq_marine.vehicles import load_vehicle
 

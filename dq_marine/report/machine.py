@@ -1,45 +1,52 @@
-"""What figures depend on besides what is measured: processor, versions, sources."""
+"""What figures depend on besides what is measured: machine, versions, commit."""
 
 from __future__ import annotations
 
-import functools
-import hashlib
 import os
 import platform
 import shutil
 import subprocess
+from collections.abc import Iterable
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from dq_marine.engines.workers import usable_cores
+import llvmlite.binding as llvm
 
-PACKAGE = Path(__file__).parents[1]
+from dq_marine.backend.simd.lanes import PRECISIONS, lanes_of
+from dq_marine.backend.workers import usable_cores
+from dq_marine.report.sources import PACKAGE
+
 LIBRARIES = ("dq-marine", "numpy", "numba", "llvmlite", "scipy", "mujoco", "gymnasium", "matplotlib")
+"""That the report's figures depend on."""
 
-SHOWING = (
-    "presentation",
-    "style",
-    "axes",
-    "curves",
-    "fits",
-    "orders",
-    "overview",
-    "rates",
-    "advice",
-    "page",
-    "command",
-)
-"""Modules of the report that only show what was measured, besides `*_view` and `page_*`."""
+SIMD_LEVELS = {
+    "avx512f": "AVX-512",
+    "avx2": "AVX2",
+    "avx": "AVX",
+    "sse2": "SSE2",
+    "sve": "SVE",
+    "neon": "NEON",
+}
+"""LLVM's names of the features that decide how wide a register is, widest first."""
 
 
 def machine() -> dict[str, Any]:
     """Return what computes, without naming the computer."""
     return {
         "cpu": cpu_model(),
+        "llvm_cpu": llvm.get_host_cpu_name(),
+        "simd": simd_level(),
         "cores": usable_cores(),
+        "lanes": {name: lanes_of(name, "strict").width for name in PRECISIONS},
         "system": f"{platform.system()} {platform.machine()}",
     }
+
+
+def simd_level() -> str:
+    """Return the widest kind of vector registers."""
+    features = llvm.get_host_cpu_features()
+    return next((name for feature, name in SIMD_LEVELS.items() if features.get(feature)), "unknown")
 
 
 def cpu_model() -> str:
@@ -55,10 +62,10 @@ def cpu_model() -> str:
     return platform.processor() or platform.machine()
 
 
-def versions() -> dict[str, str]:
+def versions(libraries: Iterable[str] = LIBRARIES) -> dict[str, str]:
     """Return what is installed, without what is not."""
     found = {"python": platform.python_version()}
-    for name in LIBRARIES:
+    for name in libraries:
         try:
             found[name] = version(name)
         except PackageNotFoundError:
@@ -66,45 +73,18 @@ def versions() -> dict[str, str]:
     return found
 
 
-def commit() -> str:
-    """Return the commit of a checkout, marked where the sources differ from it; empty for an installed package."""
+def commit(*folders: str) -> str:
+    """Return the commit of a checkout, marked where the folders differ from it; empty for an installed package."""
     if not (PACKAGE.parent / ".git").exists():
         return ""
     name = said("git", "-C", str(PACKAGE.parent), "rev-parse", "--short", "HEAD")
-    changed = said("git", "-C", str(PACKAGE.parent), "status", "--porcelain", "--", "dq_marine", "envs")
+    changed = said("git", "-C", str(PACKAGE.parent), "status", "--porcelain", "--", *folders)
     return f"{name} and changes" if name and changed else name
 
 
 def load() -> float | None:
     """Return how many processes wanted a core, on average over the last minute."""
     return round(os.getloadavg()[0], 2) if hasattr(os, "getloadavg") else None
-
-
-@functools.cache
-def source_fingerprint() -> str:
-    """Return a hash over the sources that decide what is measured: not those that only show it."""
-    digest = hashlib.sha256()
-    for path in measuring_sources():
-        digest.update(str(path.relative_to(PACKAGE)).encode() + b"\0" + path.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-def measuring_sources() -> list[Path]:
-    """Return the files that decide what is measured; a checkout has the environments behind a link."""
-    files = {path for folder in (PACKAGE, PACKAGE / "envs") for path in folder.rglob("*")}
-    return sorted(path for path in files if path.suffix in (".py", ".toml") and measures(path))
-
-
-def measures(path: Path) -> bool:
-    """Whether a file decides what is measured."""
-    inside = path.relative_to(PACKAGE).parts
-    shows = inside[0] == "report" and only_shows(path.stem)
-    return inside[0] not in ("agents", "viewer", "cli.py") and not shows
-
-
-def only_shows(module: str) -> bool:
-    """Whether a module of the report decides nothing about what is measured."""
-    return module in SHOWING or module.endswith("_view") or module.startswith("page_")
 
 
 def said(program: str, *arguments: str) -> str:

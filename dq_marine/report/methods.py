@@ -1,4 +1,4 @@
-"""The methods that are compared: this product's own and the rivals, compiled in the same way from the same physics."""
+"""The methods that are compared: this product's own and baselines, compiled in the same way from the same physics."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from dq_marine.assembly import Assembly
-from dq_marine.damping_term import DampingTerm
-from dq_marine.engines.one_body import OneBody
-from dq_marine.kernel.damping import DiagonalDamping, FullDamping
-from dq_marine.kernel.step import Advance, Composition, StepParameters
+from dq_marine.integrator.step import Advance, Composition, StepParameters
+from dq_marine.physics.damping.build import DampingTerm
+from dq_marine.physics.damping.formulas.diagonal import DiagonalDamping, FullDamping
+from dq_marine.physics.term import ForceTerm
+from dq_marine.report.baselines.decoupled_lie import make_decoupled_lie
+from dq_marine.report.baselines.drag import diagonal_drag, full_drag, linear_diagonal_drag, linear_full_drag
+from dq_marine.report.baselines.dynamics import StepSize
+from dq_marine.report.baselines.explicit_euler import make_explicit_euler
+from dq_marine.report.baselines.rk4_euler import make_rk4_euler
+from dq_marine.report.baselines.rk4_quaternion import make_rk4_quaternion
+from dq_marine.report.baselines.rkmk4 import make_rkmk4
+from dq_marine.report.baselines.semi_implicit_euler import make_semi_implicit_euler
 from dq_marine.report.physics import Physics
-from dq_marine.rivals.decoupled_lie import make_decoupled_lie
-from dq_marine.rivals.drag import diagonal_drag, full_drag, linear_diagonal_drag, linear_full_drag
-from dq_marine.rivals.dynamics import StepSize
-from dq_marine.rivals.explicit_euler import make_explicit_euler
-from dq_marine.rivals.rk4_euler import make_rk4_euler
-from dq_marine.rivals.rk4_quaternion import make_rk4_quaternion
-from dq_marine.rivals.rkmk4 import make_rkmk4
-from dq_marine.rivals.semi_implicit_euler import make_semi_implicit_euler
-from dq_marine.terms import ForceTerm
+from dq_marine.simulation.assembly import Assembly
+from dq_marine.simulation.one_body import OneBody
 
 Family: TypeAlias = Literal["DQVI", "Runge-Kutta", "Euler", "Lie group"]
 
@@ -75,10 +75,10 @@ def compose_own(
     return assembly.composition, assembly.parameters_at
 
 
-def compose_rival(
+def compose_baseline(
     method: Callable[[Composition], Advance], physics: Physics
 ) -> tuple[Composition, Callable[[float], StepParameters]]:
-    """Return a rival: the product's own forces, inertia and water, and the damping as one force more."""
+    """Return a baseline: the product's own forces, inertia and water, and the damping as one force more."""
     assembly = explicit_assembly(physics)
 
     def parameters_at(h: float) -> StepParameters:
@@ -136,7 +136,7 @@ def own(
     return Method(name, title, "DQVI", order, evaluations, damped_evaluations, compose, refuse)
 
 
-def rival(
+def baseline(
     name: str,
     title: str,
     family: Family,
@@ -145,9 +145,9 @@ def rival(
     method: Callable[[Composition], Advance],
     damped_evaluations: int | None = None,
 ) -> Method:
-    """Return one of the rivals."""
+    """Return one of the baselines."""
     damped = evaluations if damped_evaluations is None else damped_evaluations
-    compose = partial(compose_rival, method)
+    compose = partial(compose_baseline, method)
     return Method(name, title, family, order, evaluations, damped, compose, nothing)
 
 
@@ -159,12 +159,12 @@ METHODS = {
         own("dqvi4", "DQVI, order 4", 4, 5, 5),
         own("dqvi6", "DQVI, order 6", 6, 9, 9),
         own("dqvi8", "DQVI, order 8", 8, 17, 17),
-        rival("rk4_quaternion", "RK4, quaternion", "Runge-Kutta", 4, 4, make_rk4_quaternion),
-        rival("rk4_euler", "RK4, Euler angles", "Runge-Kutta", 4, 4, make_rk4_euler),
-        rival("semi_implicit_euler", "Semi-implicit Euler", "Euler", 1, 1, make_semi_implicit_euler),
-        rival("explicit_euler", "Explicit Euler", "Euler", 1, 1, make_explicit_euler),
-        rival("rkmk4", "RKMK4 on SE(3)", "Lie group", 4, 4, make_rkmk4),
-        rival("decoupled_lie", "Lie group, SO(3) x R3", "Lie group", 2, 1, make_decoupled_lie, 2),
+        baseline("rk4_quaternion", "RK4, quaternion", "Runge-Kutta", 4, 4, make_rk4_quaternion),
+        baseline("rk4_euler", "RK4, Euler angles", "Runge-Kutta", 4, 4, make_rk4_euler),
+        baseline("semi_implicit_euler", "Semi-implicit Euler", "Euler", 1, 1, make_semi_implicit_euler),
+        baseline("explicit_euler", "Explicit Euler", "Euler", 1, 1, make_explicit_euler),
+        baseline("rkmk4", "RKMK4 on SE(3)", "Lie group", 4, 4, make_rkmk4),
+        baseline("decoupled_lie", "Lie group, SO(3) x R3", "Lie group", 2, 1, make_decoupled_lie, 2),
     )
 }
 """The methods by name. With damping, DQVI of order 4 is extrapolation, with 2 + 3 kicks, instead of composition."""

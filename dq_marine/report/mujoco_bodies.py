@@ -11,11 +11,11 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.extras import missing_library
 from dq_marine.report.cases import Case
 from dq_marine.report.closed_forms import quaternion_matrix
 from dq_marine.report.end_state import EndState
 from dq_marine.report.physics import Physics
+from dq_marine.util.extras import missing_library
 
 Array = NDArray[np.float64]
 Integrator: TypeAlias = Literal["Euler", "implicitfast", "RK4"]

@@ -1,10 +1,10 @@
-"""The equations of motion as an ordinary differential equation, written separately from the kernel.
+"""The equations of motion as an ordinary differential equation, written separately from the step.
 
 Fossen's form (Fossen 2021, eqs. 6.1 and 10.38, C from M by eq. 3.60), with a quaternion:
 
     l' = R nu1 + v_c,   q' = (1/2) q (0, nu2),   M nu' = tau - C(nu) nu - D(nu) nu - g(q),   nu relative to the water
 
-The state is y = (l, q, nu), shape (13,). Nothing is shared with the kernel but the functions of forces that are neither
+The state is y = (l, q, nu), shape (13,). Nothing is shared with the step but the functions of forces that are neither
 restoring nor damping: those are the physics' own. References come from here, so this is written to be seen right; what
 is timed against the product is compiled (`report.libraries`).
 """
@@ -17,8 +17,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.kernel.dual_quaternion import pose_from_parts
-from dq_marine.kernel.spatial import Spatial
+from dq_marine.algebra.dual_quaternion import pose_from_parts
+from dq_marine.algebra.spatial import Spatial
 from dq_marine.report.end_state import EndState
 from dq_marine.report.physics import Physics
 

@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.assembly import Assembly
-from dq_marine.damping_term import DampingTerm
-from dq_marine.terms import ForceTerm, restoring_terms, uniform_water
+from dq_marine.physics.current.build import uniform_water
+from dq_marine.physics.damping.build import DampingTerm
+from dq_marine.physics.hydrostatics.build import restoring_terms
+from dq_marine.physics.term import ForceTerm
+from dq_marine.simulation.assembly import Assembly
 
 Array = NDArray[np.float64]
 

@@ -13,9 +13,6 @@ T = TypeVar("T")
 Row: TypeAlias = dict[str, Any]
 Rows: TypeAlias = list[Row]
 
-TIMING_FIELDS = ("best_ns", "median_ns", "seconds")
-"""Endings of the entries that are wall time. All others are the same in every run on one machine."""
-
 
 @dataclass(frozen=True)
 class Plan:
@@ -93,8 +90,3 @@ def find(rows: Rows, **wanted: Any) -> Rows:
 def distinct(rows: Rows, key: str) -> list[Any]:
     """Return the values of an entry, each once, in order of appearance."""
     return list(dict.fromkeys(row[key] for row in rows if key in row))
-
-
-def without_timings(rows: Rows) -> Rows:
-    """Return the rows less their wall times: what two runs on one machine must agree in."""
-    return [{key: value for key, value in row.items() if not key.endswith(TIMING_FIELDS)} for row in rows]

@@ -51,13 +51,33 @@ class Check:
         name: of what is checked.
         measured: what was found, in words and numbers.
         expected: what theory asks for.
-        passed: whether they agree.
+        passed: whether they agree; None where too little was measured to tell.
     """
 
     name: str
     measured: str
     expected: str
-    passed: bool
+    passed: bool | None
+
+    @property
+    def verdict(self) -> str:
+        """What came of it, in a word or two."""
+        if self.passed is None:
+            return "undecided"
+        return "passed" if self.passed else "FAILED"
+
+
+def by_verdict(checks: Sequence[Check]) -> list[Check]:
+    """Return the checks, those that failed first, those that are undecided next."""
+    return sorted(checks, key=lambda check: (check.passed is not False, check.passed is not None))
+
+
+def tally(checks: Sequence[Check]) -> str:
+    """Return how many of those that could be decided passed, and how many could not."""
+    decided = [check.passed for check in checks if check.passed is not None]
+    undecided = len(checks) - len(decided)
+    more = f"; too little was measured for {undecided} more" if undecided else ""
+    return f"{sum(decided)} of {len(decided)} checks passed{more}"
 
 
 def number(value: float, digits: int = 2) -> str:
@@ -78,19 +98,20 @@ def duration(seconds: float) -> str:
     """Return a time with a fitting unit."""
     for limit, factor, unit in ((1e-6, 1e9, "ns"), (1e-3, 1e6, "us"), (1.0, 1e3, "ms")):
         if seconds < limit:
-            return f"{_three_digits(seconds * factor)} {unit}"
-    return f"{_three_digits(seconds)} s"
+            return f"{three_digits(seconds * factor)} {unit}"
+    return f"{three_digits(seconds)} s"
 
 
 def factor(value: float) -> str:
     """Return how many times one thing is another."""
-    return f"{_three_digits(value)}x" if value >= 0.095 else f"{value:.2g}x"
+    return f"{three_digits(value)}x" if value >= 0.095 else f"{value:.2g}x"
 
 
-def _three_digits(value: float) -> str:
-    if value >= 99.95:
+def three_digits(value: float) -> str:
+    """Return a number to three digits, larger ones whole."""
+    if abs(value) >= 99.95:
         return f"{value:,.0f}"
-    return f"{value:.1f}" if value >= 9.995 else f"{value:.2f}"
+    return f"{value:.1f}" if abs(value) >= 9.995 else f"{value:.2f}"
 
 
 def listed(names: Sequence[str]) -> str:

@@ -17,13 +17,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.engines.compilation import all_used_functions, cache_directory, constants_of, text_of
+from dq_marine.backend.compilation import all_used_functions, constants_of, text_of
+from dq_marine.backend.disk_cache import cache_directory
 from dq_marine.errors import InvalidInputError
-from dq_marine.extras import extra_needed
 from dq_marine.report import closed_forms, ode
 from dq_marine.report.cases import Case
 from dq_marine.report.end_state import EndState, Errors, errors
-from dq_marine.report.files import write_json
+from dq_marine.util.extras import extra_needed
+from dq_marine.util.files import with_folder, write_json
 
 Array = NDArray[np.float64]
 
@@ -67,7 +68,7 @@ def references(case: Case, times: Sequence[float]) -> list[Reference]:
         return kept
     made = make(case, times)
     with suppress(InvalidInputError):  # a cache that cannot be written costs time, nothing else
-        write_json(path, [as_json(each) for each in made])
+        write_json(with_folder(path), [as_json(each) for each in made])
     return made
 
 

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from dq_marine.report.plan import Plan, Rows, Study, Unit
+from dq_marine.report.screen import Screen
 from dq_marine.report.store import Store
 
 
@@ -55,17 +55,16 @@ def measure(studies: Iterable[Study], plan: Plan, store: Store, console: Console
         for task in wanted:
             store.forget(task.study, task.unit)
     missing = [task for task in wanted if store.rows(task.study, task.unit) is None]
-    done = 0
-    with progress_bar(console) as bar:
-        line = bar.add_task("", total=sum(task.unit.weight for task in missing) or 1.0)
-        try:
-            for task in missing:
-                bar.update(line, description=f"{task.study.name}: {task.unit.name}")
+    total, weighed = sum(task.unit.weight for task in missing), 0.0
+    screen = Screen(console, estimate=True)
+    with screen.section("report"):
+        for done, task in enumerate(missing):
+            screen.tell(f"{task.study.name}: {task.unit.name}", weighed / total)
+            try:
                 store.keep(task.study, task.unit, task.unit.run())
-                bar.advance(line, task.unit.weight)
-                done += 1
-        except KeyboardInterrupt:
-            raise InterruptedRunError(len(wanted) - len(missing) + done, len(wanted)) from None
+            except KeyboardInterrupt:
+                raise InterruptedRunError(len(wanted) - len(missing) + done, len(wanted)) from None
+            weighed += task.unit.weight
     return len(wanted)
 
 
@@ -90,18 +89,3 @@ def complete(kept: list[Rows | None]) -> Rows:
             return []
         rows += unit
     return rows
-
-
-def progress_bar(console: Console) -> Progress:
-    """Return a bar that leaves nothing behind."""
-    return Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TextColumn("{task.percentage:>3.0f} %"),
-        TimeElapsedColumn(),
-        TextColumn("about"),
-        TimeRemainingColumn(),
-        TextColumn("left"),
-        console=console,
-        transient=True,
-    )

@@ -1,4 +1,4 @@
-"""Study: how often Newton's method is asked again, and how often it needs rescue."""
+"""Study: how often Newton's method is asked again, and how often it needs fallback."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from dq_marine.report.cells import cells, summary
 from dq_marine.report.extreme import STEPS, started
 from dq_marine.report.methods import METHODS
 from dq_marine.report.plan import Plan, Row, Rows, Study, Unit
-from dq_marine.report.solver_view import checks, drawings, findings, tables
+from dq_marine.report.showing.solver_view import checks, drawings, findings, tables
 from dq_marine.report.trial import DONE, Trial
-from dq_marine.scene import Scene
+from dq_marine.simulation.scene import Scene
 
 ENVIRONMENT = "dq_marine/StationKeeping-v0"
 PERIODS = 300
@@ -25,7 +25,7 @@ COUNTED = ("dqvi2", "dqvi_paper")
 
 METHOD = f"""\
 Newton iterations of each step, and steps that plain Newton did not solve on the branch from rest: those are
-*rescued*, by following the solution from rest or by splitting the step, or *refused*. Ordinary: episodes of
+*fallbacks*, by following the solution from rest or by splitting the step, or *refused*. Ordinary: episodes of
 `{ENVIRONMENT}` under random actions, {PERIODS} control periods each, every substep looked at from the environment's
 own states. Extreme: the motions of the study of extremes, for the default drift and for that of the paper."""
 
@@ -67,7 +67,7 @@ def ordinary_rows(episodes: int, seed: int) -> Rows:
 def follow_episode(env: Any, rng: np.random.Generator, counts: Counter[tuple[int, str]]) -> None:
     """Count the steps of an episode: of a body that is put where the environment's is, period by period."""
     inner = env.unwrapped
-    current = inner.get_state()["current_ned"]
+    current = inner.episode.current_ned
     scene = Scene(inner.vehicle, current=current, scheme=inner.scene.scheme, step=inner.scene.step)
     body = Trial(scene.composition, scene.parameters_at, scene.step)
     limits = inner.vehicle.wrench_limits
@@ -76,7 +76,7 @@ def follow_episode(env: Any, rng: np.random.Generator, counts: Counter[tuple[int
         body.set_state(np.concatenate([[0.0], state]))
         action = rng.uniform(-1.0, 1.0, env.action_space.shape).astype(np.float32)
         wrench = np.zeros(6)
-        wrench[inner.drive.places] = action
+        wrench[inner.action_mapping.places] = action
         count_steps(body, limits * wrench, inner.substeps, counts)
         _, _, terminated, truncated, _ = env.step(action)
         if terminated or truncated:
@@ -95,12 +95,12 @@ def extreme_rows(plan: Plan, name: str) -> Rows:
 def count_steps(body: Trial, wrench: Any, steps: int, counts: Counter[tuple[int, str]]) -> None:
     """Step a body, and count how each step was solved."""
     for _ in range(steps):
-        iterations, rescued = body.newton_iterations, body.steps_rescued
+        iterations, fallbacks = body.newton_iterations, body.fallback_steps
         outcome = body.attempt(wrench)
         if outcome != DONE:
             counts[0, outcome] += 1
             return
-        how = "rescued" if body.steps_rescued > rescued else "direct"
+        how = "fallbacks" if body.fallback_steps > fallbacks else "direct"
         counts[body.newton_iterations - iterations, how] += 1
 
 

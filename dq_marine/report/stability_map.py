@@ -11,7 +11,7 @@ from dq_marine.report.cases import CASES
 from dq_marine.report.methods import METHODS, Method
 from dq_marine.report.physics import Physics
 from dq_marine.report.plan import Plan, Rows, Study, Unit
-from dq_marine.report.stability_view import checks, drawings, findings, tables
+from dq_marine.report.showing.stability_view import checks, drawings, findings, tables
 from dq_marine.report.trial import BLEW_UP, DONE, trial
 
 DAMPING, RESTORING, VEHICLE = "damping", "restoring", "vehicle"
@@ -43,8 +43,6 @@ stable if after {DAMPED_STEPS} steps it is not faster than at the start. *Restor
 moment of frequency omega; stable if its tilt does not grow over {SWINGS} steps. *Vehicle*: a BlueROV2 Heavy under
 thrust with its linear and quadratic damping times a factor. Steps up to {LARGEST_STEP:g} s are tried; and none
 below h lambda or h omega = {SMALLEST[DAMPING]:g}."""
-
-Probe = Callable[[Method, float], str]
 
 
 def units(plan: Plan) -> list[Unit]:

@@ -9,10 +9,10 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dq_marine.engines.one_body import OneBody
 from dq_marine.errors import StepNotSolvableError
 from dq_marine.report.methods import Method
 from dq_marine.report.physics import Physics
+from dq_marine.simulation.one_body import OneBody
 
 P = ParamSpec("P")
 T = TypeVar("T")

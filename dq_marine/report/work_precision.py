@@ -11,9 +11,9 @@ from dq_marine.report.library_points import available, library_rows, settings_of
 from dq_marine.report.methods import METHODS, Method
 from dq_marine.report.plan import Plan, Row, Rows, Study, Unit
 from dq_marine.report.references import Reference, reference
+from dq_marine.report.showing.work_precision_view import checks, drawings, findings, tables
 from dq_marine.report.timing import Timed, compare
 from dq_marine.report.trial import DONE, evaluations_of, finite, overflow_allowed, trial
-from dq_marine.report.work_precision_view import checks, drawings, findings, tables
 
 COARSEST = 20
 """Steps of a whole motion."""
@@ -36,7 +36,7 @@ METHOD = f"""\
 Each motion is run to its end with ever smaller steps, from {COARSEST} for the whole motion. Errors are those of
 attitude, position and velocity at the end, against a closed form or the finest solution that is known. Time is that
 of the compiled steps on one core, per simulated second: calls of {TIMED_STEPS[0]:,} steps or more, all methods and
-sizes in turn, the shortest of several samples. Every method of this package and every rival is compiled in the same
+sizes in turn, the shortest of several samples. Every method of this package and every baseline is compiled in the same
 way and uses the same functions for the forces. Evaluations count how often all forces are evaluated; DQVI also
 solves three equations for each of its drifts, which only the time shows. SciPy solves the same equations with the
 same compiled forces and with tolerances instead of steps; its time is that of a whole solution, its own Python

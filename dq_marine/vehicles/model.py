@@ -7,16 +7,17 @@ Craft Hydrodynamics and Motion Control.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from dq_marine.vehicles.actuators import ActuatorSet, Azimuth, ChannelSheet, Fin, Thruster
-from dq_marine.vehicles.cross_flow import CrossFlow
-from dq_marine.vehicles.damping_coupling import DampingCoupling, coupling_tensor
-from dq_marine.vehicles.fields import (
+from dq_marine.physics.actuators.tables import ActuatorSet, Azimuth, ChannelSheet, Fin, Thruster
+from dq_marine.physics.constants import GRAVITY
+from dq_marine.physics.damping.coupling_table import DampingCoupling, coupling_tensor
+from dq_marine.physics.damping.cross_flow_table import CrossFlow
+from dq_marine.physics.fields import (
     MOTIONS,
     Matrix3,
     Matrix6,
@@ -26,12 +27,11 @@ from dq_marine.vehicles.fields import (
     Vector3,
     Vector6,
 )
-from dq_marine.vehicles.hydrostatics import HullBox, Hydrostatics, Load
-from dq_marine.vehicles.plausibility import check_vehicle
-from dq_marine.vehicles.radiation import RadiationTable
-
-STANDARD_GRAVITY = 9.81
-"""Acceleration of gravity [m/s^2]."""
+from dq_marine.physics.gravity import checked_gravity
+from dq_marine.physics.hydrostatics.tables import HullBox, Hydrostatics, Load
+from dq_marine.physics.matrices import skew
+from dq_marine.physics.waves.radiation import RadiationTable
+from dq_marine.vehicles.checks.plausibility import check_vehicle
 
 
 class RigidBody(Table):
@@ -79,7 +79,7 @@ class Damping(Table):
 
 
 class Limits(Table):
-    """What the actuators reach.
+    """The largest force and moment of the actuators.
 
     Attributes:
         wrench: largest force and moment of each axis [N, N m]; 0 where the vehicle is not actuated.
@@ -129,6 +129,7 @@ class Vehicle(Table):
         hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
         loads: weights that act besides.
         radiation: added mass and damping by frequency, for the forces of seas; a file names a CSV file beside it.
+        gravity: g [m/s^2], for weight and buoyancy, and for the lengths of waves; a stiffness in N/m holds for it.
     """
 
     name: str = Field(min_length=1)
@@ -149,21 +150,42 @@ class Vehicle(Table):
     hull: tuple[HullBox, ...] = ()
     loads: tuple[Load, ...] = ()
     radiation: RadiationTable | None = None
+    gravity: float = GRAVITY
 
     @model_validator(mode="after")
     def _plausible(self) -> Self:
         check_vehicle(self)
         return self
 
+    def in_gravity(self, gravity: float) -> Vehicle:
+        """Return the vehicle under another gravity, or itself if it is the same.
+
+        Weight, loads and buoyancy change with it, and so does a stiffness that its file has in N/m. Forces of actuators
+        and tables by frequency stay as they are.
+
+        Args:
+            gravity: g [m/s^2].
+
+        Raises:
+            InvalidInputError: it is no number from 0.1 to 30.
+        """
+        wanted = checked_gravity(gravity)
+        if wanted == self.gravity:
+            return self
+        changed: dict[str, Any] = {"gravity": wanted}
+        if self.hydrostatics is not None:
+            changed["hydrostatics"] = self.hydrostatics.times(wanted / self.gravity)
+        return Vehicle.model_validate(dict(self) | changed)
+
     @property
     def weight(self) -> float:
         """W = m g [N]."""
-        return self.rigid_body.mass * STANDARD_GRAVITY
+        return self.rigid_body.mass * self.gravity
 
     @property
     def specific_weight(self) -> float:
-        """Of the water, rho g [N/m^3]."""
-        return self.buoyancy.water_density * STANDARD_GRAVITY
+        """Specific weight of the water, rho g [N/m^3]."""
+        return self.buoyancy.water_density * self.gravity
 
     @property
     def buoyant_force(self) -> float:
@@ -184,14 +206,14 @@ class Vehicle(Table):
 
     @property
     def load_weight(self) -> float:
-        """Of all loads [N]."""
-        return STANDARD_GRAVITY * sum(load.mass for load in self.loads)
+        """Weight of all loads [N]."""
+        return self.gravity * sum(load.mass for load in self.loads)
 
     @property
     def load_arm(self) -> NDArray[np.float64]:
         """First moment of the loads' weights about the body origin [N m], shape (3,)."""
         moments = [load.mass * np.array(load.position) for load in self.loads]
-        return np.asarray(STANDARD_GRAVITY * np.sum([np.zeros(3), *moments], axis=0))
+        return np.asarray(self.gravity * np.sum([np.zeros(3), *moments], axis=0))
 
     @property
     def rigid_body_matrix(self) -> NDArray[np.float64]:
@@ -204,10 +226,15 @@ class Vehicle(Table):
         return np.array(np.block([[mass * np.eye(3), -mass * s], [mass * s, inertia]]))
 
     @property
+    def added_mass_matrix(self) -> NDArray[np.float64]:
+        """The symmetric part of M_A, shape (6, 6)."""
+        added = np.array(self.added_mass)
+        return np.asarray(0.5 * (added + added.T))
+
+    @property
     def mass_matrix(self) -> NDArray[np.float64]:
         """M = M_RB + M_A, with the symmetric part of M_A, shape (6, 6)."""
-        added = np.array(self.added_mass)
-        return np.asarray(self.rigid_body_matrix + 0.5 * (added + added.T))
+        return np.asarray(self.rigid_body_matrix + self.added_mass_matrix)
 
     @property
     def linear_damping(self) -> NDArray[np.float64]:
@@ -244,7 +271,7 @@ class Vehicle(Table):
 
     @property
     def channels(self) -> tuple[ChannelSheet, ...]:
-        """What can be commanded, in the order of commands: thrusters, azimuths (speed, angle), fins."""
+        """Channels that take commands, in the order of the commands: thrusters, azimuths (speed, angle), fins."""
         return self.actuators.channels
 
     @property
@@ -253,14 +280,8 @@ class Vehicle(Table):
         return self.actuators.thrust_matrix
 
 
-def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the matrix S(a) with S(a) b = a x b, shape (3, 3)."""
-    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
-
-
 __all__ = [
     "MOTIONS",
-    "STANDARD_GRAVITY",
     "Azimuth",
     "Buoyancy",
     "Damping",
@@ -271,5 +292,4 @@ __all__ = [
     "Thruster",
     "Vector6",
     "Vehicle",
-    "skew",
 ]

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.vehicles.implausible import Implausible
+from dq_marine.physics.implausible import Implausible
 from dq_marine.vehicles.model import Vehicle
 
 

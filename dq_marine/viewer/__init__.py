@@ -6,13 +6,13 @@ to install where one is missing: `pip install "dq-marine[render]"`.
 
 from __future__ import annotations
 
-from dq_marine.viewer.browser import find_chromium
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.live import LiveViewer
 from dq_marine.viewer.offscreen import OffscreenViewer
 from dq_marine.viewer.pacing import RealTimePacer
 from dq_marine.viewer.replay import save_replay
 from dq_marine.viewer.snapshot import Shape, Snapshot, Thruster
+from dq_marine.viewer.transport.browser import find_chromium
 
 __all__ = [
     "LiveViewer",

@@ -6,11 +6,11 @@ import os
 import sys
 import webbrowser
 
-from dq_marine.viewer.closable import Closable
-from dq_marine.viewer.drawing import checked_floor_depth
-from dq_marine.viewer.server_process import ServerProcess
 from dq_marine.viewer.snapshot import Shape, Snapshot
-from dq_marine.viewer.stage import Stage
+from dq_marine.viewer.transport.closable import Closable
+from dq_marine.viewer.transport.server_process import ServerProcess
+from dq_marine.viewer.world.drawing import checked_floor_depth
+from dq_marine.viewer.world.stage import Stage
 
 
 class LiveViewer(Closable):

@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.viewer.browser import HeadlessBrowser, find_chromium
-from dq_marine.viewer.caption import write_caption
-from dq_marine.viewer.closable import Closable
-from dq_marine.viewer.drawing import checked_floor_depth
 from dq_marine.viewer.errors import ViewerError
-from dq_marine.viewer.extras import optional_module
-from dq_marine.viewer.server_process import ServerProcess
+from dq_marine.viewer.libraries import drawing_library
 from dq_marine.viewer.snapshot import Shape, Snapshot
-from dq_marine.viewer.stage import Stage
+from dq_marine.viewer.transport.browser import HeadlessBrowser, find_chromium
+from dq_marine.viewer.transport.closable import Closable
+from dq_marine.viewer.transport.server_process import ServerProcess
+from dq_marine.viewer.world.caption import write_caption
+from dq_marine.viewer.world.drawing import checked_floor_depth
+from dq_marine.viewer.world.stage import Stage
 
 FIRST_PICTURE_TIMEOUT = 60.0
 PICTURE_TIMEOUT = 20.0
@@ -57,7 +57,7 @@ class OffscreenViewer(Closable):
                 raise InvalidInputError(f"{name} is {pixels}; give 1 to {LARGEST_SIDE} pixels")
         floor_depth = checked_floor_depth(floor_depth)
         find_chromium()
-        self._image = optional_module("PIL.Image")
+        self._image = drawing_library("PIL.Image")
         self._size = (width, height)
         self._caption = caption
         self._timeout = FIRST_PICTURE_TIMEOUT

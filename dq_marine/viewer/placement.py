@@ -57,10 +57,6 @@ class Placement:
         return entries
 
 
-IN_PLACE = Placement()
-"""At the origin of the parent frame, not turned, in its own size."""
-
-
 def hidden_at(position: Vector3) -> Placement:
     """For a thing that cannot be seen now, at the place where it may appear [m]."""
     return Placement(position, scale=HIDDEN_SCALE)

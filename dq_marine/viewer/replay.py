@@ -12,14 +12,15 @@ from pathlib import Path
 import numpy as np
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.viewer.drawing import JUMPING_PATHS, Drawing, checked_floor_depth, floor_below
-from dq_marine.viewer.extras import meshcat_page_folder
-from dq_marine.viewer.messages import Command, set_animation, set_transform
-from dq_marine.viewer.pages import REPLAY_PAGE
+from dq_marine.util.files import write_whole
+from dq_marine.viewer.libraries import meshcat_page_folder
 from dq_marine.viewer.placement import Placement
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
-from dq_marine.viewer.three_json import Json, packed_floats
-from dq_marine.viewer.trail import draw_trail
+from dq_marine.viewer.transport.messages import Command, set_animation, set_transform
+from dq_marine.viewer.transport.pages import REPLAY_PAGE
+from dq_marine.viewer.transport.three_json import Json, packed_floats
+from dq_marine.viewer.world.drawing import JUMPING_PATHS, Drawing, checked_floor_depth, floor_below
+from dq_marine.viewer.world.trail import draw_trail
 
 STEPWISE = 2300
 LINEAR = 2301
@@ -47,7 +48,8 @@ def save_replay(
 
     Raises:
         InvalidInputError: no snapshots, times that do not increase, a `floor_depth` not above 0, or
-            a path that cannot be a file.
+            a path
+            that cannot be written.
         MissingDependencyError: meshcat is not installed.
     """
     target = _checked_target(Path(path))
@@ -62,7 +64,7 @@ def save_replay(
         commands=json.dumps([base64.b64encode(c.packed()).decode() for c in commands]),
         times=json.dumps(times.tolist()),
     )
-    _write_whole(target, page)
+    write_whole(target, page)
 
 
 def _checked_target(path: Path) -> Path:
@@ -141,13 +143,3 @@ def _continuous(quaternions: FloatArray) -> FloatArray:
 
 def _meshcat_script() -> str:
     return (meshcat_page_folder() / "main.min.js").read_text(encoding="utf-8")
-
-
-def _write_whole(target: Path, text: str) -> None:
-    """Write a file under another name first, so that nobody ever finds half of it."""
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(target)
-    finally:
-        part.unlink(missing_ok=True)

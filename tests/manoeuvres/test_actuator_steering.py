@@ -4,19 +4,19 @@ import math
 
 import numpy as np
 import pytest
-from crafts import sphere
 from hypothesis import given
 from hypothesis import strategies as st
+from setups import sphere
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres import Conditions, acceleration, decay, turning_circle, zig_zag
 from dq_marine.manoeuvres.actuator_steering import ActuatorSteering, thrust_and_angle
-from dq_marine.manoeuvres.craft import prepared
 from dq_marine.manoeuvres.linear_modes import rest_of
+from dq_marine.manoeuvres.setup import prepared
 from dq_marine.manoeuvres.steering import Order
-from dq_marine.scene import Scene
+from dq_marine.physics.actuators.tables import Azimuth, Thruster
+from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import load_vehicle
-from dq_marine.vehicles.actuators import Azimuth, Thruster
 
 SPEED = 2.0
 

@@ -4,16 +4,16 @@ import math
 
 import numpy as np
 import pytest
-from crafts import mass_of, righted_sphere, sphere
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
+from setups import mass_of, righted_sphere, sphere
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres import decay
 from dq_marine.manoeuvres.decrement import decrement_of
+from dq_marine.physics.hydrostatics.restoring import natural_periods
 from dq_marine.vehicles import load_vehicle
-from dq_marine.vehicles.restoring import natural_periods
 
 SMALL = math.radians(1.0)
 

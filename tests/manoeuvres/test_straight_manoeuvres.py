@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from crafts import LIMITS, LINEAR, mass_of, sphere
+from setups import LIMITS, LINEAR, mass_of, sphere
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres import Conditions, acceleration, stopping

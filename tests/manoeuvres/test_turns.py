@@ -4,18 +4,18 @@ import math
 
 import numpy as np
 import pytest
-from crafts import LIMITS, LINEAR, mass_of, sphere, spindle
 from hypothesis import given
 from hypothesis import strategies as st
+from setups import LIMITS, LINEAR, mass_of, sphere, spindle
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres import spiral, turning_circle, zig_zag
 from dq_marine.manoeuvres.approach import approached
 from dq_marine.manoeuvres.conditions import Conditions
-from dq_marine.manoeuvres.craft import prepared
+from dq_marine.manoeuvres.setup import prepared
 from dq_marine.manoeuvres.spiral import SpiralPoint, loop
 from dq_marine.manoeuvres.zig_zag import ZigZagHelmsman
-from dq_marine.vehicles.munk import munk_growth_rate
+from dq_marine.vehicles.analysis.munk import munk_growth_rate
 
 
 def steady_turn_of(vehicle, helm):

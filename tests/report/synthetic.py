@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from dq_marine.report.curves import curves_of
 from dq_marine.report.methods import METHODS
 from dq_marine.report.plan import Rows
-from dq_marine.report.stability_view import BOUNDS, CEILING
+from dq_marine.report.showing.curves import curves_of
+from dq_marine.report.showing.stability_view import BOUNDS, CEILING
 
 CASE = "munk_spheroid"
 LEVELS = [20 * 2**level for level in range(9)]
@@ -142,23 +142,23 @@ def extreme() -> Rows:
 
 
 def terms() -> Rows:
-    """Two scenes, two engines."""
+    """Two scenes, two backends."""
     rows: Rows = []
-    for engine, best in (("one body", 200.0), ("batch", 30.0)):
+    for backend, best in (("one body", 200.0), ("batch", 30.0)):
         for factor, name in ((1.0, "inertia alone"), (1.1, "current"), (1.6, "everything")):
-            row = {"engine": engine, "terms": name, "best_ns": factor * best, "median_ns": factor * best}
-            rows.append(row | ({"iterations": 2.0} if engine == "one body" else {"bodies": 512}))
+            row = {"backend": backend, "terms": name, "best_ns": factor * best, "median_ns": factor * best}
+            rows.append(row | ({"iterations": 2.0} if backend == "one body" else {"bodies": 512}))
     return rows
 
 
 def solver() -> Rows:
-    """An ordinary run without rescue, an extreme one with."""
+    """An ordinary run without fallback, an extreme one with."""
     counts = [
         ("ordinary", "direct", 2, 900),
         ("ordinary", "direct", 3, 100),
         ("extreme", "direct", 4, 50),
-        ("extreme", "rescued", 40, 7),
-        ("extreme", "rescued", 600, 1),
+        ("extreme", "fallbacks", 40, 7),
+        ("extreme", "fallbacks", 600, 1),
         ("extreme", "wrong_branch", 0, 3),
     ]
     return [

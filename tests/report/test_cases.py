@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 from support.bodies import random_damping, random_inertia, random_quaternion
 from support.fossen import solve
 
-from dq_marine.kernel.dual_quaternion import pose_from_parts
-from dq_marine.kernel.euler import quaternion_from_euler
+from dq_marine.algebra.dual_quaternion import pose_from_parts
+from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.report.case_bodies import SUPPLY_VESSEL_RESTORING, remus_100, supply_vessel
 from dq_marine.report.case_forces import Waterplane, waterplane
 from dq_marine.report.cases import CASES, THRUST

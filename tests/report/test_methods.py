@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dq_marine.engines.packing import pack
-from dq_marine.kernel.spatial import from_fossen
-from dq_marine.kernel.step import ACCEPTED, make_advance
+from dq_marine.algebra.spatial import from_fossen
+from dq_marine.backend.packing import pack
+from dq_marine.integrator.step import ACCEPTED, make_advance
 from dq_marine.report.cases import CASES
 from dq_marine.report.end_state import end_of, errors
 from dq_marine.report.methods import METHODS, drag_terms
@@ -70,7 +70,7 @@ def test_negative_stages_are_refused_where_something_damps(name):
     assert METHODS[name].refusal(CASES["ship_restoring"].physics) == ""
 
 
-def test_a_rival_runs_compiled_like_the_products_own():
+def test_a_baseline_runs_compiled_like_the_products_own():
     case = CASES["kirchhoff_bluerov2"]
     body = METHODS["rk4_quaternion"].body(case.physics, 0.01)
     case.place(body)

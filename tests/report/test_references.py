@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from support.fossen import solve
 
+from dq_marine.physics.term import ForceTerm
 from dq_marine.report import references as module
 from dq_marine.report.cases import CASES
 from dq_marine.report.closed_forms import BroadsideTurn, FreeTop, incomplete_third_kind, quaternion_matrix
 from dq_marine.report.end_state import EndState, errors
 from dq_marine.report.references import path_of, reference, references
-from dq_marine.terms import ForceTerm
 
 KNOWN_TO = {"dzhanibekov": 2e-10, "damped_bluerov2": 2e-11}
 """The middle axis magnifies round-off a hundred thousand times; |nu| nu has a kink wherever a velocity passes zero."""

@@ -7,14 +7,14 @@ import copy
 import pytest
 from report import synthetic
 
-from dq_marine.report.page import checks_of
 from dq_marine.report.plan import Rows
 from dq_marine.report.registry import STUDIES
+from dq_marine.report.showing.page import checks_of
 
 
 def failures(name: str, rows: Rows) -> list[str]:
     """Names of the checks that fail."""
-    return [check.name for check in STUDIES[name].checks(rows) if not check.passed]
+    return [check.name for check in STUDIES[name].checks(rows) if check.passed is False]
 
 
 @pytest.mark.parametrize("name", STUDIES)
@@ -44,6 +44,25 @@ def test_an_order_that_is_too_low_fails(method: str, order: float) -> None:
     assert synthetic.slope_between(rows, method) == pytest.approx(order)
     assert len(failures("work_precision", rows)) == 1
     assert failures("work_precision", rows)[0].startswith("order of")
+
+
+def test_an_error_that_does_not_vanish_fails() -> None:
+    """Only near round-off may an error stop falling."""
+    rows = synthetic.work_precision()
+    for row in rows:
+        if row["method"] == "dqvi4" and row["kind"] == "error":
+            row["attitude"] += 1e-5
+    assert failures("work_precision", rows) == ["order of DQVI, order 4 on Spheroid turning broadside"]
+
+
+def test_an_order_without_enough_points_is_said_and_neither_passes_nor_fails() -> None:
+    rows = synthetic.work_precision()
+    few = [row for row in rows if row["method"] != "dqvi4" or row["steps"] in synthetic.LEVELS[:2]]
+    (check,) = [one for one in STUDIES["work_precision"].checks(few) if "DQVI, order 4" in one.name]
+    assert check.passed is None
+    assert check.verdict == "undecided"
+    assert check.measured.startswith("not enough points")
+    assert failures("work_precision", few) == []
 
 
 def test_quadratic_damping_limits_what_is_asked_of_high_orders_only() -> None:
@@ -126,10 +145,10 @@ def test_dqvi_that_blows_up_is_found() -> None:
     assert failures("extreme", rows) == ["DQVI, order 2 never blows up in extremes"]
 
 
-def test_ordinary_steps_that_need_rescue_are_found() -> None:
+def test_ordinary_steps_that_need_the_fallback_are_found() -> None:
     rows = synthetic.solver()
-    rows[1]["how"] = "rescued"
-    assert failures("solver", rows) == ["ordinary steps need neither rescue nor refusal"]
+    rows[1]["how"] = "fallbacks"
+    assert failures("solver", rows) == ["ordinary steps need neither fallback nor refusal"]
 
 
 def test_wall_time_decides_nothing() -> None:

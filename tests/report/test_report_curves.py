@@ -8,9 +8,9 @@ import pytest
 from matplotlib import rc_context
 from report import synthetic
 
-from dq_marine.report.curves import best_own, curves_of
-from dq_marine.report.style import SETTINGS
-from dq_marine.report.work_precision_view import draw_case
+from dq_marine.report.showing.curves import best_own, curves_of
+from dq_marine.report.showing.work_precision_view import draw_case
+from dq_marine.util.plot_style import SETTINGS
 
 
 def test_errors_and_times_of_a_step_size_come_together() -> None:

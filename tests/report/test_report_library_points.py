@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from support.timings import without_timings
 
 from dq_marine.report.cases import CASES
 from dq_marine.report.libraries import LIBRARIES
 from dq_marine.report.library_points import available, library_rows, settings_of
-from dq_marine.report.plan import without_timings
 
 
 def test_tolerances_and_steps_go_from_coarse_to_fine() -> None:

@@ -11,14 +11,14 @@ from typing import Any
 import pytest
 from report import synthetic
 
-from dq_marine.report.advice import advice
-from dq_marine.report.axes import rendered
 from dq_marine.report.command import write_report
-from dq_marine.report.page import Page, make_page
-from dq_marine.report.page_html import html_of
-from dq_marine.report.page_markdown import markdown_of
 from dq_marine.report.plan import Plan, Rows
 from dq_marine.report.registry import STUDIES
+from dq_marine.report.showing.advice import advice
+from dq_marine.report.showing.axes import rendered
+from dq_marine.report.showing.page import Page, make_page
+from dq_marine.report.showing.page_html import html_of
+from dq_marine.report.showing.page_markdown import markdown_of
 
 PLAN = Plan(quick=True, seed=3)
 
@@ -147,7 +147,7 @@ def shown(folder: Path) -> Iterator[Any]:
     from viewer.devtools import DEBUGGING_FLAGS, Page, _debugger_url
     from websockets.sync.client import connect
 
-    from dq_marine.viewer.browser import HeadlessBrowser
+    from dq_marine.viewer.transport.browser import HeadlessBrowser
 
     browser = HeadlessBrowser((folder / "index.html").as_uri(), 1200, 900, extra_flags=DEBUGGING_FLAGS)
     try:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from dq_marine.report import page_html, page_markdown
 from dq_marine.report.presentation import Check, Table, duration, factor, listed, number, power
+from dq_marine.report.showing import page_html, page_markdown
 
 
 @pytest.mark.parametrize(
@@ -58,6 +58,15 @@ def test_failed_checks_come_first() -> None:
         assert section.index("bad") < section.index("good")
         assert "1 of 2 checks passed" in section
         assert "FAILED" in section
+
+
+def test_undecided_checks_count_neither_as_passed_nor_as_failed() -> None:
+    checks = [Check("good", "1", "1", True), Check("open", "", "1", None), Check("bad", "2", "1", False)]
+    for section in (page_html.check_section(checks), page_markdown.check_section(checks)):
+        assert section.index("bad") < section.index("open") < section.index("good")
+        assert "1 of 2 checks passed; too little was measured for 1 more." in section
+    assert "undecided" in page_html.check_section(checks[:2])
+    assert "None failed." in page_html.check_section(checks[:2])
 
 
 def test_checks_that_all_passed_are_folded() -> None:

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
+from support.timings import without_timings
 
-from dq_marine.report import machine
-from dq_marine.report.plan import Plan, Rows, Study, Unit, without_timings
+from dq_marine.report import sources
+from dq_marine.report.plan import Plan, Rows, Study, Unit
 from dq_marine.report.runner import InterruptedRunError, measure, measured
 from dq_marine.report.store import Store
 
@@ -87,7 +88,7 @@ def test_other_sources_are_measured_again(
     bench: Bench, store: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bench.measure(store)
-    monkeypatch.setattr(machine, "source_fingerprint", lambda: "changed")
+    monkeypatch.setattr(sources, "source_fingerprint", lambda: "changed")
     assert bench.measure(Store(tmp_path, PLAN)) == ["a", "b", "c"]
 
 

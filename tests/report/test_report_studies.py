@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.timings import without_timings
 
 from dq_marine.report import branch, extreme, long_run, solver, stability_map, work_precision
 from dq_marine.report.cases import CASES
@@ -11,7 +12,7 @@ from dq_marine.report.cells import FACTORS, cells, random_inertia
 from dq_marine.report.invariants import energy, momentum_errors
 from dq_marine.report.methods import METHODS
 from dq_marine.report.physics import Physics
-from dq_marine.report.plan import Plan, find, without_timings
+from dq_marine.report.plan import Plan, find
 from dq_marine.report.registry import STUDIES
 from dq_marine.report.trial import BLEW_UP, DONE, evaluations_of, trial
 
@@ -72,14 +73,14 @@ def test_an_ordinary_step_is_confirmed_whole() -> None:
 def test_a_split_step_is_confirmed_in_pieces() -> None:
     """Straight ahead beyond the translation limit the way from rest loses its branch, that of half a step does not."""
     before, after, body = stepped((2.1 / MUNK_RATE, 0.0, 0.0, 0.0, 0.0, 0.0))
-    assert body.steps_rescued == 1
+    assert body.fallback_steps == 1
     assert branch.confirmed_pieces("dqvi2", body.parameters.inertia, 1.0, before, after) == 2
 
 
 def test_a_continued_step_is_confirmed_whole() -> None:
     """Slightly off that axis plain Newton fails, too, but the way from rest is there."""
     before, after, body = stepped((2.1 / MUNK_RATE, 0.02, 0.01, 0.0, 0.01, 0.0))
-    assert body.steps_rescued == 1
+    assert body.fallback_steps == 1
     assert branch.confirmed_pieces("dqvi2", body.parameters.inertia, 1.0, before, after) == 1
 
 

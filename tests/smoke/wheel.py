@@ -1,6 +1,10 @@
 """Run outside the repository with only the core installed: the wheel is complete and the extras are optional."""
 
+import ast
+import importlib
+import importlib.metadata
 import importlib.util
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,9 +13,7 @@ import gymnasium
 import numpy as np
 
 import dq_marine
-from dq_marine.errors import MissingDependencyError
-from dq_marine.scene import Scene
-from dq_marine.vehicles import load_vehicle, vehicle_names
+from dq_marine import MissingDependencyError, Scene, load_vehicle, vehicle_names
 
 assert "site-packages" in dq_marine.__file__, dq_marine.__file__
 for extra in ("torch", "stable_baselines3", "meshcat", "matplotlib"):
@@ -39,6 +41,29 @@ assert body.position_ned[0] > 0.0
 for name in vehicle_names():
     load_vehicle(name)
 assert load_vehicle("supply_vessel").radiation is not None
+
+# A wheel's long description is the README: every name of ours that its Python code imports must be there. Those that
+# need an extra say which; all others need only the core.
+EXTRAS = {"dq_marine.ThrustAllocator": "allocation", "dq_marine.agents.MarineVecEnv": "agents"}
+metadata = importlib.metadata.metadata("dq-marine")
+readme = metadata["Description"] or str(metadata.get_payload())
+imports = {
+    (node.module, alias.name)
+    for block in re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
+    for node in ast.walk(ast.parse(block))
+    if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[0] == "dq_marine"
+    for alias in node.names
+}
+assert len(imports) >= 10, f"the README imports only {sorted(imports)}"
+for module, name in sorted(imports):
+    public, extra = f"{module}.{name}", EXTRAS.get(f"{module}.{name}")
+    try:
+        getattr(importlib.import_module(module), name)
+    except MissingDependencyError as error:
+        assert extra is not None, f"{public} needs more than the core: {error}"
+        assert f'pip install "dq-marine[{extra}]"' in str(error), error
+    else:
+        assert extra is None, f"{public} needs no extra: take it out of EXTRAS"
 
 command = Path(sys.executable).parent / "dq-marine"
 for arguments in (["--help"], ["vehicles"]):

@@ -4,12 +4,40 @@ from __future__ import annotations
 
 import numpy as np
 
-from dq_marine.assembly import Assembly
-from dq_marine.damping_term import DampingTerm, StripTerm
-from dq_marine.engines.one_body import OneBody
-from dq_marine.kernel.coupled_damping import HEAVE_PLANE, SWAY_PLANE
-from dq_marine.kernel.cross_flow import StripRow
-from dq_marine.terms import WaterTerm, restoring_terms, uniform_water
+from dq_marine.algebra.spatial import from_fossen
+from dq_marine.backend.packing import pack, unpack
+from dq_marine.integrator.body import AT_REST
+from dq_marine.integrator.step import ACCEPTED, make_advance
+from dq_marine.physics.current.build import uniform_water
+from dq_marine.physics.damping.build import DampingTerm, StripTerm
+from dq_marine.physics.damping.formulas.coupled import HEAVE_PLANE, SWAY_PLANE
+from dq_marine.physics.damping.formulas.cross_flow import StripRow
+from dq_marine.physics.hydrostatics.build import restoring_terms
+from dq_marine.physics.term import WaterTerm
+from dq_marine.simulation.assembly import Assembly
+from dq_marine.simulation.one_body import OneBody
+
+
+class PlainBody(OneBody):
+    """A body whose step runs in plain Python: for a few hundred steps that takes less than compiling them."""
+
+    def _compiled_advance(self):
+        advance = make_advance(self._composition)
+
+        def advance_arrays(parameters, state, wrench, time, steps):
+            force = from_fossen(tuple(wrench.tolist()))
+            outcome = advance(unpack(self.parameters, parameters), unpack(AT_REST, state), force, time, steps)
+            if outcome.status == ACCEPTED:
+                state[:] = pack(outcome.state)
+            return (
+                outcome.status,
+                outcome.completed,
+                outcome.iterations,
+                outcome.fallbacks,
+                outcome.residual_squared,
+            )
+
+        return advance_arrays
 
 
 def random_inertia(rng, condition=20.0, coupled=True):
@@ -60,8 +88,9 @@ def make_body(
     order=2,
     l_stable=True,
     forces=(),
+    kind=OneBody,
 ):
-    """A `OneBody` with any M, restoring, damping (Fossen's order), current and forces.
+    """A `OneBody` with any M, restoring, damping (Fossen's order), current and forces; or a `PlainBody`.
 
     Couplings are the tensor c_ijk, strips pairs (plane "sway" or "heave", (c, first x, spacing, number)).
     """
@@ -76,4 +105,4 @@ def make_body(
         scheme,
         order,
     )
-    return OneBody(assembly.composition, assembly.parameters_at, step)
+    return kind(assembly.composition, assembly.parameters_at, step)

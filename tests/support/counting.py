@@ -1,4 +1,4 @@
-"""A number that counts the arithmetic done with it: the exact cost of a kernel function, in operations."""
+"""A number that counts the arithmetic done with it: the exact cost of a pure function, in operations."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def counted(structure):
 
 
 def operations_of(function, *arguments):
-    """Arithmetic operations in one call of a kernel function."""
+    """Arithmetic operations in one call of a pure function."""
     before = Counted.operations
     function(*arguments)
     return Counted.operations - before

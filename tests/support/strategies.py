@@ -1,4 +1,4 @@
-"""Hypothesis strategies for the kernel's tuples."""
+"""Hypothesis strategies for the tuples of pure functions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 from hypothesis import strategies as st
 
-from dq_marine.kernel.dual_quaternion import pose_from_parts
+from dq_marine.algebra.dual_quaternion import pose_from_parts
 
 numbers = st.floats(-10.0, 10.0, allow_nan=False)
 vectors = st.tuples(numbers, numbers, numbers)

@@ -6,17 +6,20 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
+from support.sweeps import sweep
 
-from dq_marine.envs.view import shape_of
+from dq_marine.envs.core.view import shape_of
+from dq_marine.errors import UnsuitableVehicleWarning
+from dq_marine.physics.hydrostatics.restoring import floating_periods
 from dq_marine.report.case_bodies import Rexrov, remus_100
-from dq_marine.scene import Scene
+from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import load_vehicle, vehicle_names, vehicle_sheet
 from dq_marine.vehicles.coupling import asymmetry
-from dq_marine.vehicles.restoring import floating_periods
 from dq_marine.viewer import save_replay
 from dq_marine.viewer.snapshot import at_rest
 
 ID = "dq_marine/StationKeeping-v0"
+DRIVEN = [name for name in vehicle_names() if load_vehicle(name).channels]
 FLOATING = ["osv83", "otter", "supply_vessel", "tanker"]
 
 
@@ -178,7 +181,7 @@ def random_hour(body, act):
     assert body.time == pytest.approx(3600.0)
 
 
-@pytest.mark.parametrize("name", vehicle_names())
+@pytest.mark.parametrize("name", sweep(vehicle_names(), plain=("bluerov2_heavy", "otter")))
 def test_an_hour_of_random_wrenches_is_finite(name):
     vehicle = load_vehicle(name)
     body = Scene(vehicle, current=(0.3, -0.1, 0.0), step=0.02).stepper()
@@ -186,7 +189,7 @@ def test_an_hour_of_random_wrenches_is_finite(name):
     random_hour(body, lambda: body.step(rng.uniform(-1.0, 1.0, 6) * vehicle.wrench_limits, 25))
 
 
-@pytest.mark.parametrize("name", [name for name in vehicle_names() if load_vehicle(name).channels])
+@pytest.mark.parametrize("name", sweep(DRIVEN, plain=("remus100",)))
 def test_an_hour_of_random_commands_is_finite(name):
     vehicle = load_vehicle(name)
     body = Scene(vehicle, current=(0.3, -0.1, 0.0), step=0.02, actuation="thrusters").stepper()
@@ -195,10 +198,11 @@ def test_an_hour_of_random_commands_is_finite(name):
     random_hour(body, lambda: body.actuate(rng.uniform(low, high), 25))
 
 
-@pytest.mark.parametrize("name", vehicle_names())
+@pytest.mark.parametrize("name", sweep(vehicle_names(), plain=("bluerov2_heavy", "otter")))
 def test_the_environment_takes_it(name):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        warnings.simplefilter("ignore", UnsuitableVehicleWarning)
         env = gym.make(ID, vehicle=name)
         check_env(env.unwrapped, skip_render_check=True)
     assert env.action_space.shape == (np.count_nonzero(load_vehicle(name).wrench_limits),)

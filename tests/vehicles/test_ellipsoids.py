@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.scene import Scene
+from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import ellipsoid, spheroid
 
 NEUTRAL_SPHEROID = (35.39387824, 60.86052274, 60.86052274, 0.20453077, 2.79541877, 2.79541877)

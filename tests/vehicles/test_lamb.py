@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.special import elliprd
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.vehicles.lamb import added_mass_coefficients, carlson_rd, ellipsoid_mass_matrix
+from dq_marine.vehicles.analysis.lamb import added_mass_coefficients, carlson_rd, ellipsoid_mass_matrix
 
 lengths = st.floats(1e-3, 1e3)
 

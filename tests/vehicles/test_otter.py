@@ -5,9 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support import otter
 from support.otter import damping_diagonal, inertia_matrices, otter_run, restoring_matrix
 
-from dq_marine.scene import Scene
+from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import load_vehicle
 
 RUN = np.loadtxt(Path(__file__).with_name("otter_turn.csv"), delimiter=",", skiprows=1)
@@ -84,3 +85,19 @@ def test_other_runs_and_a_current(commands, current):
     velocities, position = deviations(mine, reference)
     assert (velocities < 0.01).all()
     assert position < 0.02
+
+
+def test_a_run_on_mars(monkeypatch):
+    """Weight, payload and buoyancy with its gravity; the damping is the file's, which was made with Earth's."""
+    mars, damping = 3.72, damping_diagonal()
+    monkeypatch.setattr(otter, "GRAVITY", mars)
+    monkeypatch.setattr(otter, "damping_diagonal", lambda: damping)
+    times = np.arange(0.0, 20.01, 0.5)
+    reference = otter_run(astern, times)[:, :12]
+    mine = flown(astern, times, gravity=mars)
+    velocities, position = deviations(mine, reference)
+    assert (velocities < 0.01).all()
+    assert position < 0.02
+    heave, pitch = 2, 4
+    ranges = np.ptp(reference, axis=0)[[heave, pitch]]
+    assert (np.abs(mine - reference)[:, [heave, pitch]].max(axis=0) < 0.03 * ranges).all()

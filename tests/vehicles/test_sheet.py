@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.scene import Scene
+from dq_marine.physics.hydrostatics.restoring import natural_periods, restoring_frequencies
+from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import Vehicle, ellipsoid, load_vehicle, spheroid, vehicle_names, vehicle_sheet
+from dq_marine.vehicles.analysis.munk import munk_growth_rate
 from dq_marine.vehicles.coupling import asymmetry, largest_coupling
-from dq_marine.vehicles.munk import munk_growth_rate
-from dq_marine.vehicles.restoring import natural_periods, restoring_frequencies
 
 MUNK_RATE = 2.301752703506763
 """Of the neutral spheroid 0.5 x 0.125 m at 1 m/s [1/s]."""

@@ -5,7 +5,7 @@ import pytest
 
 from dq_marine.errors import InvalidInputError, VehicleFileError
 from dq_marine.vehicles import Vehicle, load_vehicle, vehicle_names
-from dq_marine.vehicles.catalogue import _FOLDER
+from dq_marine.vehicles.loading import _FOLDER
 
 TEXT = (_FOLDER / "bluerov2_heavy.toml").read_text()
 

@@ -12,10 +12,10 @@ from typing import Any
 
 from websockets.sync.client import ClientConnection, connect
 
-from dq_marine.viewer.browser import HeadlessBrowser
+from dq_marine.viewer.transport.browser import HeadlessBrowser
 
 DEBUGGING_FLAGS = ("--remote-debugging-port=0", "--remote-allow-origins=*")
-PATIENCE = 30.0
+PATIENCE = 120.0
 
 
 class Page:

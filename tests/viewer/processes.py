@@ -18,7 +18,7 @@ def alive(pid: int) -> bool:
     return state != "Z"
 
 
-def wait_for_end(pid: int, patience: float = 10.0) -> bool:
+def wait_for_end(pid: int, patience: float = 120.0) -> bool:
     """Whether a process ends soon."""
     deadline = time.monotonic() + patience
     while alive(pid):

@@ -10,14 +10,14 @@ from numpy.testing import assert_allclose
 from viewer.samples import AUV, ROV, snapshot, yawed
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.viewer.arrows import CURRENT_PATHS, THRUST
-from dq_marine.viewer.camera import LeashedView
-from dq_marine.viewer.drawing import CLOCK, WORLD, Drawing, checked_floor_depth, floor_below
+from dq_marine.viewer.models.vehicle_model import GOAL_BALL, GOAL_GHOST, VEHICLE
 from dq_marine.viewer.placement import HIDDEN_SCALE, Placement
-from dq_marine.viewer.sea import FLOOR, SHADOW, SPECKS, SURFACE, SeaScale
 from dq_marine.viewer.snapshot import Shape, Snapshot
-from dq_marine.viewer.trail import LONGEST, Trail
-from dq_marine.viewer.vehicle_model import GOAL_BALL, GOAL_GHOST, VEHICLE
+from dq_marine.viewer.world.arrows import CURRENT_PATHS, THRUST
+from dq_marine.viewer.world.camera import LeashedView
+from dq_marine.viewer.world.drawing import CLOCK, WORLD, Drawing, checked_floor_depth, floor_below
+from dq_marine.viewer.world.sea import FLOOR, SHADOW, SPECKS, SURFACE, SeaScale
+from dq_marine.viewer.world.trail import LONGEST, Trail
 
 
 def place(shown: Snapshot, path: str, shape: Shape = ROV) -> Placement:

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.viewer.drawing import Drawing
-from dq_marine.viewer.hull_mesh import Level, lofted
-from dq_marine.viewer.sea import SPECKS
+from dq_marine.viewer.models.hull_mesh import Level, lofted
+from dq_marine.viewer.models.vehicle_model import HULLS
 from dq_marine.viewer.snapshot import Shape, at_rest
-from dq_marine.viewer.vehicle_model import HULLS
-from dq_marine.viewer.water import ON_THE_SURFACE, UNDER_WATER, surroundings_of
+from dq_marine.viewer.world.drawing import Drawing
+from dq_marine.viewer.world.sea import SPECKS
+from dq_marine.viewer.world.water import ON_THE_SURFACE, UNDER_WATER, surroundings_of
 
 OTTER = Shape(2.0, 1.08, 0.6, kind="catamaran", draft=0.195)
 SUPPLY = Shape(83.0, 18.0, 8.0, kind="ship", draft=5.0)

@@ -119,10 +119,11 @@ def test_a_browser_that_has_gone_is_noticed_soon() -> None:
     viewer = OffscreenViewer(ROV, 64, 48)
     viewer.render(snapshot())
     os.killpg(viewer._browser.pid, signal.SIGKILL)
+    viewer._timeout = 600.0  # it must not be waited for
     started = time.monotonic()
     with pytest.raises(ViewerError, match="Chromium has ended"):
         viewer.render(snapshot(time=1.0))
-    assert time.monotonic() - started < 5.0
+    assert time.monotonic() - started < 300.0
     assert not alive(viewer._server.pid)
 
 
@@ -141,7 +142,7 @@ def test_browser_ends_with_a_killed_parent() -> None:
         [sys.executable, "-c", script],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=600,
         env={**os.environ, "PYTHONPATH": search_path},
     )
     server, browser, profile = result.stdout.split()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import math
+import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -204,8 +205,8 @@ def test_a_failed_write_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.
         raise OSError("no space left on device")
 
     with monkeypatch.context() as patch:
-        patch.setattr(Path, "write_text", full_disk)
-        with pytest.raises(OSError, match="no space"):
+        patch.setattr(os, "replace", full_disk)
+        with pytest.raises(InvalidInputError, match="cannot be written: no space"):
             save_replay(target, [snapshot()], ROV)
     assert target.read_text() == "old"
     save_replay(target, [snapshot()], ROV)

@@ -11,7 +11,8 @@ from viewer.samples import ROV, snapshot
 
 from dq_marine.errors import MissingDependencyError
 from dq_marine.viewer import LiveViewer, OffscreenViewer, find_chromium, save_replay
-from dq_marine.viewer.browser import CHROMIUM_VARIABLE
+from dq_marine.viewer.transport import browser
+from dq_marine.viewer.transport.browser import CHROMIUM_VARIABLES
 
 INSTALL = r'pip install "dq-marine\[render\]"'
 
@@ -40,29 +41,62 @@ def test_replay_names_the_missing_library(name: str, tmp_path: Path, monkeypatch
     assert list(tmp_path.iterdir()) == []
 
 
-def test_offscreen_viewer_needs_pillow(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    chromium = tmp_path / "chromium"
-    chromium.write_text("#!/bin/sh\n")
-    chromium.chmod(0o755)
-    monkeypatch.setenv(CHROMIUM_VARIABLE, str(chromium))
+def program(path: Path) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("#!/bin/sh\n")
+    path.chmod(0o755)
+    return path
+
+
+@pytest.fixture
+def bare(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """The only folder where programs are looked for, on a machine without a browser."""
+    for variable in CHROMIUM_VARIABLES:
+        monkeypatch.delenv(variable, raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path / "bin"))
+    monkeypatch.setattr(browser, "APPLICATION_FOLDERS", (tmp_path / "Applications",))
+    return tmp_path / "bin"
+
+
+def test_offscreen_viewer_needs_pillow(monkeypatch: pytest.MonkeyPatch, bare: Path) -> None:
+    program(bare / "chromium")
     monkeypatch.setitem(sys.modules, "PIL.Image", None)
     with pytest.raises(MissingDependencyError, match=f"'PIL.Image'.*{INSTALL}"):
         OffscreenViewer(ROV)
 
 
-def test_missing_chromium_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.delenv(CHROMIUM_VARIABLE, raising=False)
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(MissingDependencyError, match=f"apt-get install chromium.*{CHROMIUM_VARIABLE}"):
+@pytest.mark.usefixtures("bare")
+def test_missing_chromium_is_named() -> None:
+    with pytest.raises(
+        MissingDependencyError, match=r"apt-get install chromium.*DQ_MARINE_CHROMIUM or CHROME"
+    ):
         OffscreenViewer(ROV)
 
 
-def test_variable_names_the_chromium(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    mine = tmp_path / "my-chromium"
-    mine.write_text("#!/bin/sh\n")
-    mine.chmod(0o755)
-    monkeypatch.setenv(CHROMIUM_VARIABLE, str(mine))
+@pytest.mark.parametrize("variable", CHROMIUM_VARIABLES)
+def test_a_variable_names_the_browser(variable: str, bare: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    program(bare / "chromium")
+    mine = program(bare.parent / "mine" / "my browser")
+    monkeypatch.setenv(variable, str(mine))
     assert find_chromium() == str(mine)
-    monkeypatch.setenv(CHROMIUM_VARIABLE, str(tmp_path / "absent"))
-    with pytest.raises(MissingDependencyError, match=r"absent.*no program"):
+    monkeypatch.setenv(variable, "chromium")  # a name will do
+    assert find_chromium() == str(bare / "chromium")
+    monkeypatch.setenv(variable, str(bare / "absent"))
+    with pytest.raises(MissingDependencyError, match=rf"{variable} = .*absent.*no program"):
         find_chromium()
+    monkeypatch.setenv(variable, "")
+    assert find_chromium() == str(bare / "chromium")
+
+
+@pytest.mark.parametrize("name", ["chromium-browser", "google-chrome", "google-chrome-stable", "chrome"])
+def test_a_browser_of_another_name_is_found(name: str, bare: Path) -> None:
+    mine = program(bare / name)
+    assert find_chromium() == str(mine)
+    first = program(bare / "chromium")
+    assert find_chromium() == str(first)
+
+
+@pytest.mark.parametrize("inside", browser.APPLICATIONS)
+def test_an_application_of_macos_is_found(inside: str, bare: Path) -> None:
+    mine = program(bare.parent / "Applications" / inside)
+    assert find_chromium() == str(mine)

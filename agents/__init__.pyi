@@ -1,0 +1,16 @@
+"""The public names of dq_marine.agents. Each line makes a name public; `dq_marine.util.lazy_names` reads them here."""
+
+from dq_marine.agents.controllers.baselines import Agent as Agent
+from dq_marine.agents.controllers.baselines import RandomAgent as RandomAgent
+from dq_marine.agents.controllers.baselines import ZeroAgent as ZeroAgent
+from dq_marine.agents.controllers.baselines import make_baseline as make_baseline
+from dq_marine.agents.controllers.dp_controller import DPController as DPController
+from dq_marine.agents.evaluation.episodes import Episode as Episode
+from dq_marine.agents.evaluation.episodes import fly_episode as fly_episode
+from dq_marine.agents.evaluation.evaluation import Score as Score
+from dq_marine.agents.evaluation.evaluation import evaluate as evaluate
+from dq_marine.agents.evaluation.evaluation import score_table as score_table
+from dq_marine.agents.training.trained_policy import TrainedPolicy as TrainedPolicy
+from dq_marine.agents.training.training import begin_training as begin_training
+from dq_marine.agents.training.training import resume_training as resume_training
+from dq_marine.agents.training.vec_env import MarineVecEnv as MarineVecEnv

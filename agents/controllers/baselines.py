@@ -1,0 +1,75 @@
+"""What flies a vehicle: one protocol, and the agents that need no training."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import gymnasium as gym
+import numpy as np
+
+from dq_marine.agents.controllers.dp_controller import DPController
+from dq_marine.envs.core.marine_env import Action, Observation
+from dq_marine.errors import InvalidInputError
+
+BASELINES = ("controller", "zero", "random")
+"""Names that `make_baseline` takes."""
+
+
+class Agent(Protocol):
+    """Anything that turns observations into actions.
+
+    The caller resets the environment first and then the agent, so that the agent finds the episode under way.
+    """
+
+    def reset(self, env: gym.Env[Any, Any]) -> None:
+        """Prepare for the episode that has just begun in `env`."""
+
+    def act(self, observation: Observation) -> Action:
+        """Return the action for an observation."""
+
+
+class ZeroAgent:
+    """Drifts: every action is zero."""
+
+    def __init__(self, axes: int) -> None:
+        """Take the number of actuated axes."""
+        self._action = np.zeros(axes, dtype=np.float32)
+
+    def reset(self, env: gym.Env[Any, Any]) -> None:
+        """Do nothing."""
+
+    def act(self, observation: Observation) -> Action:
+        """Return zeros, shape (axes,)."""
+        return self._action.copy()
+
+
+class RandomAgent:
+    """Draws every action uniformly from [-1, 1]."""
+
+    def __init__(self, axes: int, seed: int = 0) -> None:
+        """Take the number of actuated axes and the seed of all episodes to come."""
+        self._axes = axes
+        self._random = np.random.default_rng(seed)
+
+    def reset(self, env: gym.Env[Any, Any]) -> None:
+        """Go on drawing: every episode gets actions of its own."""
+
+    def act(self, observation: Observation) -> Action:
+        """Return uniform numbers, shape (axes,)."""
+        return self._random.uniform(-1.0, 1.0, self._axes).astype(np.float32)
+
+
+def make_baseline(name: str, env: gym.Env[Any, Any], seed: int = 0) -> Agent:
+    """Return one of `BASELINES` for an environment.
+
+    Raises:
+        InvalidInputError: the name is unknown, or the controller cannot fly in this environment.
+    """
+    axes = int(np.prod(env.action_space.shape or ()))
+    if name == "controller":
+        return DPController.for_env(env)
+    if name == "zero":
+        return ZeroAgent(axes)
+    if name == "random":
+        return RandomAgent(axes, seed)
+    raise InvalidInputError(f"agent = {name!r} is unknown; give one of {', '.join(BASELINES)}")

@@ -1,0 +1,250 @@
+"""Dynamic positioning: a PID controller of position and attitude, the baseline to compare with.
+
+The wanted acceleration in each axis is linear in error e, velocity and the error's integral,
+
+    a = k_p e - k_d nu + z,    dz/dt = k_i e,                                                          (1)
+
+and the wrench is M a less the restoring wrench, with the vehicle's full mass matrix M: Fossen's nonlinear MIMO
+PID (2021, Handbook of Marine Craft, Algorithm 15.2) but for two things. The full M takes the place of its diagonal,
+and the third pole is placed, too: e obeys (s^2 + 2 zeta w s + w^2)(s + w_i) with
+
+    k_p = w^2 + 2 zeta w w_i,    k_d = 2 zeta w + w_i,    k_i = w^2 w_i.                                (2)
+
+Damping by the water is not cancelled: it only adds to k_d. The current is not measured: z makes up for it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.agents.controllers.rotation import rotation_vector
+from dq_marine.agents.controllers.wrench_mapping import WRENCH_MAPPINGS, WrenchMapping
+from dq_marine.agents.environments import marine
+from dq_marine.agents.preset_files import read_settings
+from dq_marine.agents.settings import ControllerSettings, LoopSettings
+from dq_marine.algebra.quaternion import world_down_in_body
+from dq_marine.envs.core.marine_env import Action, MarineEnv, Observation
+from dq_marine.errors import InvalidInputError
+from dq_marine.vehicles import Vehicle
+
+Array = NDArray[np.float64]
+
+READ = (
+    "goal_position_body",
+    "goal_x_axis_body",
+    "goal_y_axis_body",
+    "linear_velocity_body",
+    "angular_velocity_body",
+)
+"""What the controller takes from an observation, which has to begin with it."""
+
+LEVEL_DOWN = np.array([0.0, 0.0, 1.0])
+"""Down, seen from a level goal."""
+
+
+class Reading(NamedTuple):
+    """What the controller takes from an observation.
+
+    Attributes:
+        error_body: goal position [m] and rotation vector [rad] onto the goal's attitude, body frame, shape (6,).
+        velocity_body: over ground, Fossen's order [m/s, rad/s], shape (6,).
+        goal_to_body: rotation matrix, its columns the goal's axes, shape (3, 3).
+    """
+
+    error_body: Array
+    velocity_body: Array
+    goal_to_body: Array
+
+
+@dataclass(frozen=True)
+class Gains:
+    """Gains of (1), per axis in Fossen's order, each of shape (6,) [1/s^2, 1/s, 1/s^3]."""
+
+    proportional: Array
+    derivative: Array
+    integral: Array
+
+
+def place_poles(settings: ControllerSettings) -> Gains:
+    """Return the gains (2)."""
+    w = _six(settings, "bandwidth")
+    zeta = _six(settings, "damping_ratio")
+    w_i = _six(settings, "integral_rate")
+    return Gains(
+        proportional=w**2 + 2.0 * zeta * w * w_i, derivative=2.0 * zeta * w + w_i, integral=w**2 * w_i
+    )
+
+
+def read_observation(observation: Observation) -> Reading:
+    """Return position and attitude error, velocity and relative attitude from an observation, shape (18,)."""
+    numbers = np.asarray(observation, dtype=np.float64)
+    x_axis, y_axis = numbers[3:6], numbers[6:9]
+    goal_to_body = np.column_stack([x_axis, y_axis, np.cross(x_axis, y_axis)])
+    error = np.concatenate([numbers[:3], rotation_vector(goal_to_body)])
+    return Reading(error, numbers[9:15], goal_to_body)
+
+
+class DPController:
+    """Brings a fully actuated vehicle to the goal that it observes and holds it there.
+
+    The integral z is kept in the goal's axes, which stand still in the current while the vehicle turns. Two
+    measures keep it from winding up: errors beyond a reach are integrated as that reach, and a saturated actuator
+    feeds its shortfall back (back-calculation; Astrom & Rundqwist 1989, Integrator windup and how to avoid it).
+
+    An axis without actuator is left alone; the task may then be beyond the vehicle.
+    """
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        control_period: float,
+        settings: ControllerSettings | None = None,
+        actuation: str = "wrench",
+    ) -> None:
+        """Derive the gains.
+
+        Args:
+            vehicle: its mass matrix, weight, buoyancy and limits are used.
+            control_period: time between actions [s].
+            settings: where the poles go; None reads the preset `dp_controller`.
+            actuation: what the environment's action drives, see `dq_marine.Settings`.
+
+        Raises:
+            InvalidInputError: the poles are too fast for the control period, or a value is wrong.
+            MissingDependencyError: thrusters are to be driven, and SciPy is not installed.
+        """
+        chosen = settings or read_settings("dp_controller", ControllerSettings)
+        self.vehicle = vehicle
+        self.control_period = control_period
+        self.gains = place_poles(chosen)
+        self._check_rate()
+        self._anti_windup_rate = 1.0 / max(chosen.anti_windup_time, control_period)
+        self._reaches = (chosen.position.integral_reach, chosen.attitude.integral_reach)
+        self._mass_matrix = vehicle.mass_matrix
+        self._inverse_mass_matrix = np.linalg.inv(self._mass_matrix)
+        self._limits = vehicle.wrench_limits
+        self._mapping = _mapping(actuation, vehicle)
+        self._net_weight = vehicle.weight - vehicle.buoyant_force
+        self._down_in_goal = LEVEL_DOWN
+        self._integral_in_goal = np.zeros(6)
+
+    @classmethod
+    def for_env(cls, env: gym.Env[Any, Any], settings: ControllerSettings | None = None) -> DPController:
+        """Return the controller for an environment's vehicle and control period.
+
+        Raises:
+            InvalidInputError: the environment shows something else.
+        """
+        inner = _readable(env)
+        return cls(inner.vehicle, inner.control_period, settings, inner.scene.actuation)
+
+    @property
+    def integral_in_goal(self) -> Array:
+        """z: acceleration that makes up for what is not modelled, in the goal's axes, shape (6,)."""
+        return self._integral_in_goal.copy()
+
+    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
+        """Forget the integral and learn where down is.
+
+        Args:
+            env: tells how the goal is tilted, after its own reset; None stands for a level goal.
+
+        Raises:
+            InvalidInputError: the environment shows something else.
+        """
+        self._integral_in_goal = np.zeros(6)
+        self._down_in_goal = LEVEL_DOWN
+        if env is not None:
+            goal = _readable(env).snapshot().goal_quaternion_body_to_ned
+            if goal is not None:
+                self._down_in_goal = np.array(world_down_in_body(tuple(goal.tolist())))
+
+    def act(self, observation: Observation) -> Action:
+        """Return the action in [-1, 1], shape (n,), and advance the integral."""
+        reading = read_observation(observation)
+        wanted = self.wrench(reading)
+        given = self._mapping.give(wanted, float(reading.velocity_body[0]))
+        self._integrate(reading, given.wrench_body - wanted)
+        return given.action.astype(np.float32)
+
+    def wrench(self, reading: Reading) -> Array:
+        """Return the wrench wanted now, beyond the limits if need be, shape (6,) [N, N m]."""
+        acceleration = (
+            self.gains.proportional * reading.error_body
+            - self.gains.derivative * reading.velocity_body
+            + _rotated(reading.goal_to_body, self._integral_in_goal)
+        )
+        wrench: Array = self._mass_matrix @ acceleration - self._restoring_wrench(reading.goal_to_body)
+        return wrench
+
+    def _restoring_wrench(self, goal_to_body: Array) -> Array:
+        """Return the wrench of weight and buoyancy, shape (6,); see `physics.hydrostatics.formulas.submerged`."""
+        down = goal_to_body @ self._down_in_goal
+        return np.concatenate([self._net_weight * down, np.cross(self.vehicle.restoring_arm, down)])
+
+    def _integrate(self, reading: Reading, shortfall: Array) -> None:
+        """Advance z by one control period; `shortfall` is the wrench given less the wrench wanted, shape (6,)."""
+        linear, angular = reading.error_body[:3], reading.error_body[3:]
+        within_reach = np.concatenate(
+            [_shortened(linear, self._reaches[0]), _shortened(angular, self._reaches[1])]
+        )
+        rate = (
+            self.gains.integral * within_reach
+            + self._anti_windup_rate * self._inverse_mass_matrix @ shortfall
+        )
+        rate[self._limits == 0.0] = 0.0  # what no actuator can make up for is not summed up
+        self._integral_in_goal += self.control_period * _rotated(reading.goal_to_body.T, rate)
+
+    def _check_rate(self) -> None:
+        """A velocity loop held over a period T is stable for k_d T < 2 and even-tempered below 1."""
+        fastest = float(self.gains.derivative.max())
+        if fastest * self.control_period >= 1.0:
+            raise InvalidInputError(
+                f"control_period = {self.control_period:g} s is too long for the controller: 2 zeta w + w_i = "
+                f"{fastest:.3g} 1/s times it must stay below 1; lower the bandwidth, or give a control period "
+                f"below {1.0 / fastest:.3g} s"
+            )
+
+
+def _mapping(actuation: str, vehicle: Vehicle) -> WrenchMapping:
+    """Return where wrenches go."""
+    if actuation not in WRENCH_MAPPINGS:
+        raise InvalidInputError(f"actuation = {actuation!r} is unknown; give one of {list(WRENCH_MAPPINGS)}")
+    return WRENCH_MAPPINGS[actuation](vehicle)
+
+
+def _six(settings: ControllerSettings, field: str) -> Array:
+    """Return a field of both loops for the six axes, shape (6,)."""
+
+    def three(loop: LoopSettings) -> list[float]:
+        return [float(getattr(loop, field))] * 3
+
+    return np.array(three(settings.position) + three(settings.attitude))
+
+
+def _rotated(r: Array, a: Array) -> Array:
+    """Return both halves of a 6-vector rotated, shape (6,)."""
+    return np.concatenate([r @ a[:3], r @ a[3:]])
+
+
+def _shortened(a: Array, reach: float) -> Array:
+    """Return a vector, shortened to a length of at most `reach`."""
+    length = float(np.linalg.norm(a))
+    return a if length <= reach else reach / length * a
+
+
+def _readable(env: gym.Env[Any, Any]) -> MarineEnv:
+    """Return the environment inside its wrappers, if its observation begins with what the controller reads."""
+    inner = marine(env)
+    names = tuple(one.name for one in inner.observations)
+    if names[: len(READ)] != READ:
+        raise InvalidInputError(
+            f"the controller reads {', '.join(READ)}, and {inner.definition.id} shows {', '.join(names)}; give it an "
+            "environment whose observation begins with these"
+        )
+    return inner

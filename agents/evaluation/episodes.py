@@ -1,0 +1,153 @@
+"""Flying one episode and keeping what is worth plotting, tabulating or testing."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+
+from dq_marine.agents.controllers.baselines import Agent
+from dq_marine.agents.environments import marine
+from dq_marine.agents.evaluation.metrics import SUCCESS, Array, Metric, metrics_of, reward_term_names
+from dq_marine.agents.evaluation.trajectory import Track
+
+
+@dataclass(frozen=True)
+class Episode:
+    """One flown episode of n control periods, on n + 1 instants.
+
+    Attributes:
+        time: since the start [s], shape (n + 1,).
+        metrics: what it is measured by.
+        measured: the metrics by name, in the units of `info`, shape (n + 1,) each.
+        actions: normalised, as held from each instant but the last, shape (n, axes).
+        action_names: of the axes.
+        rewards: of each period, shape (n,).
+        reward_terms: by name, of each period, shape (n,) each; none if the environment names none.
+        success: whether the task counts as done at the end.
+        ended_early: whether the episode was terminated, say beyond the workspace.
+        seed: that it was reset with.
+        track: where the vehicle was, if that was asked for.
+    """
+
+    time: Array
+    metrics: tuple[Metric, ...]
+    measured: dict[str, Array]
+    actions: Array
+    action_names: tuple[str, ...]
+    rewards: Array
+    reward_terms: dict[str, Array]
+    success: bool
+    ended_early: bool
+    seed: int = 0
+    track: Track | None = None
+
+    @property
+    def total_reward(self) -> float:
+        """The return, undiscounted."""
+        return math.fsum(self.rewards.tolist())
+
+    @property
+    def last_third(self) -> slice:
+        """The instants from which steady errors are taken."""
+        return slice(2 * len(self.time) // 3, None)
+
+    @property
+    def tolerances(self) -> dict[Metric, float]:
+        """The metrics that say whether an episode has settled, and within what."""
+        return {metric: metric.tolerance for metric in self.metrics if metric.tolerance is not None}
+
+    @property
+    def settling_time(self) -> float | None:
+        """Time from which on all metrics stay within their tolerances [s]; None if they do not."""
+        outside = np.zeros(len(self.time), np.bool_)
+        for metric, tolerance in self.tolerances.items():
+            outside |= np.abs(self.measured[metric.name]) > tolerance
+        if outside[-1]:
+            return None
+        return float(self.time[np.flatnonzero(outside)[-1] + 1]) if outside.any() else 0.0
+
+    def columns(self) -> dict[str, Array]:
+        """Return everything by name, the unit at its end, each of shape (n + 1,).
+
+        Actions and rewards are those of the period that begins at the instant; at the last instant they are NaN.
+        """
+
+        def of_periods(values: Array) -> Array:
+            return np.append(values, np.nan)
+
+        columns = {"time_s": self.time} | ({} if self.track is None else self.track.columns())
+        for index, name in enumerate(self.action_names):
+            columns[f"action_{name.replace(' ', '_')}"] = of_periods(self.actions[:, index])
+        columns["reward"] = of_periods(self.rewards)
+        columns |= {name: of_periods(values) for name, values in self.reward_terms.items()}
+        return columns | {
+            metric.shown_name: metric.shown(self.measured[metric.name]) for metric in self.metrics
+        }
+
+
+def fly_episode(
+    env: gym.Env[Any, Any],
+    agent: Agent,
+    *,
+    seed: int,
+    options: dict[str, Any] | None = None,
+    interruptible: bool = False,
+    track: bool = False,
+) -> Episode:
+    """Fly one episode to its end.
+
+    Args:
+        env: of this package, made with a time limit.
+        agent: what flies it.
+        seed: of the episode.
+        options: of the environment's reset.
+        interruptible: whether Ctrl-C ends the flight and keeps what was flown; else it passes.
+        track: keep where the vehicle was.
+
+    Raises:
+        InvalidInputError: an option is wrong, or the environment is not one of this package.
+    """
+    inner = marine(env)
+    observation, info = env.reset(seed=seed, options=options)
+    agent.reset(env)
+    infos, actions, rewards = [info], [], []
+    followed = Track() if track else None
+    if followed is not None:
+        followed.add(inner)
+    terminated = truncated = False
+    while not (terminated or truncated):
+        action = agent.act(observation)
+        try:
+            observation, reward, terminated, truncated, info = env.step(action)
+        except KeyboardInterrupt:
+            if not interruptible:
+                raise
+            break
+        infos.append(info)
+        actions.append(action)
+        rewards.append(float(reward))
+        if followed is not None:
+            followed.add(inner)
+    metrics = metrics_of(inner.definition)
+    held = np.array(actions, dtype=np.float64).reshape(len(actions), *(env.action_space.shape or ()))
+    return Episode(
+        time=inner.control_period * np.arange(len(infos), dtype=np.float64),
+        metrics=metrics,
+        measured={metric.name: _series(infos, metric.name) for metric in metrics},
+        actions=np.clip(held, -1.0, 1.0),
+        action_names=tuple(inner.action_names),
+        rewards=np.array(rewards, dtype=np.float64),
+        reward_terms={name: _series(infos[1:], name) for name in reward_term_names(info)},
+        success=bool(info.get(SUCCESS, False)),
+        ended_early=terminated,
+        seed=seed,
+        track=followed,
+    )
+
+
+def _series(infos: list[dict[str, Any]], name: str) -> Array:
+    return np.array([info[name] for info in infos], dtype=np.float64)

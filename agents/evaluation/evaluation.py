@@ -1,0 +1,164 @@
+"""Comparing agents: the same seeded episodes for each, and a table of what came out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from functools import partial
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from rich.box import SIMPLE_HEAD
+from rich.table import Table
+from rich.text import Text
+
+from dq_marine.agents.controllers.baselines import Agent
+from dq_marine.agents.evaluation.episodes import Episode, fly_episode
+from dq_marine.agents.evaluation.metrics import Metric
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How a quantity is spread over episodes."""
+
+    mean: float
+    median: float
+    p95: float
+
+
+@dataclass(frozen=True)
+class MetricScore:
+    """How a metric is spread over episodes, in the unit that people read.
+
+    Attributes:
+        metric: what was measured.
+        final: at an episode's last instant.
+        steady: its mean over the last third of an episode.
+    """
+
+    metric: Metric
+    final: Spread
+    steady: Spread
+
+
+@dataclass(frozen=True)
+class Score:
+    """What an agent achieved over a number of episodes.
+
+    Attributes:
+        agent: name.
+        episodes: how many.
+        returns: undiscounted sum of rewards.
+        metrics: of the task, by name.
+        success_rate: fraction of episodes at whose end the task counted as done.
+        early_end_rate: fraction of episodes that were terminated, say beyond the workspace.
+    """
+
+    agent: str
+    episodes: int
+    returns: Spread
+    metrics: dict[str, MetricScore]
+    success_rate: float
+    early_end_rate: float
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the score as nested dictionaries, for JSON; the names of metrics have their unit at the end."""
+        metrics = {
+            one.metric.shown_name: {"final": asdict(one.final), "steady": asdict(one.steady)}
+            for one in self.metrics.values()
+        }
+        return vars(self) | {"returns": asdict(self.returns), "metrics": metrics}
+
+
+def evaluate(
+    env: gym.Env[Any, Any],
+    agents: Mapping[str, Agent],
+    *,
+    episodes: int,
+    seed: int,
+    after_episode: Callable[[str, Episode], None] | None = None,
+    track: bool = False,
+) -> list[Score]:
+    """Fly episodes seeded seed, seed + 1, ... with every agent.
+
+    Args:
+        env: made with a time limit.
+        agents: by name.
+        episodes: of each agent, at least 1.
+        seed: of the first episode.
+        after_episode: called with the agent's name and the episode after each one, to tell progress or to keep it.
+        track: whether episodes keep where the vehicle was.
+    """
+    scores = []
+    for name, agent in agents.items():
+        flown = []
+        for index in range(episodes):
+            flown.append(fly_episode(env, agent, seed=seed + index, track=track))
+            if after_episode is not None:
+                after_episode(name, flown[-1])
+        scores.append(score(name, flown))
+    return scores
+
+
+def score(name: str, episodes: Sequence[Episode]) -> Score:
+    """Return the score of an agent that flew these episodes."""
+    return Score(
+        agent=name,
+        episodes=len(episodes),
+        returns=spread([episode.total_reward for episode in episodes]),
+        metrics={metric.name: _metric_score(metric, episodes) for metric in episodes[0].metrics},
+        success_rate=float(np.mean([episode.success for episode in episodes])),
+        early_end_rate=float(np.mean([episode.ended_early for episode in episodes])),
+    )
+
+
+def _metric_score(metric: Metric, episodes: Sequence[Episode]) -> MetricScore:
+    measured = [metric.shown(episode.measured[metric.name]) for episode in episodes]
+    steady = [
+        float(values[episode.last_third].mean()) for values, episode in zip(measured, episodes, strict=True)
+    ]
+    return MetricScore(metric, spread([float(values[-1]) for values in measured]), spread(steady))
+
+
+def spread(values: Sequence[float]) -> Spread:
+    """Return mean, median and 95th percentile."""
+    return Spread(float(np.mean(values)), float(np.median(values)), float(np.percentile(values, 95)))
+
+
+def score_table(scores: Sequence[Score], notes: Sequence[str] = ()) -> Table:
+    """Return the scores as a table, each quantity as mean, median and 95th percentile; notes stand below it."""
+    table = Table(
+        title=f"{scores[0].episodes} episodes each, the same starts and currents for every agent",
+        caption="\n".join(["steady: mean over the last third of an episode", *notes]),
+        box=SIMPLE_HEAD,
+        pad_edge=False,
+        collapse_padding=True,
+    )
+    table.add_column("agent", style="bold", no_wrap=True)
+    table.add_column("", style="dim")
+    of_metrics = [heading for one in scores[0].metrics.values() for heading in _headings(one.metric)]
+    for heading in ("return", *of_metrics, "success", "ended\nearly"):
+        table.add_column(Text(heading), justify="right")  # as text: [m] would be taken for markup
+    for one in scores:
+        table.add_row(one.agent, *_cells(one), end_section=True)
+    return table
+
+
+def _headings(metric: Metric) -> tuple[str, str]:
+    """Return the headings of a metric's two columns, a word on each line, so that they are narrow."""
+    unit = [f"[{metric.shown_unit}]"] if metric.unit else []
+    words = metric.label.split()
+    return "\n".join([*words, "final", *unit]), "\n".join([*words, "steady", *unit])
+
+
+def _cells(score: Score) -> list[str]:
+    cells = ["mean\nmedian\n95 %", _lines(score.returns, "{:.1f}".format)]
+    for one in score.metrics.values():
+        text = partial(one.metric.text, unit=False)
+        cells += [_lines(one.final, text), _lines(one.steady, text)]
+    return [*cells, f"{score.success_rate:.0%}", f"{score.early_end_rate:.0%}"]
+
+
+def _lines(values: Spread, text: Callable[[float], str]) -> str:
+    return "\n".join(text(value) for value in (values.mean, values.median, values.p95))

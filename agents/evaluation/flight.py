@@ -1,0 +1,210 @@
+"""Flying one episode for people to see: live in the browser, as a replay, as a plot."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from gymnasium.wrappers import TimeLimit
+from rich.table import Table
+
+from dq_marine.agents.controllers.baselines import Agent
+from dq_marine.agents.environments import make_environment, marine
+from dq_marine.agents.evaluation.episodes import Episode, fly_episode
+from dq_marine.agents.evaluation.metrics import REWARD_PREFIX
+from dq_marine.agents.evaluation.trajectory import check_trajectory_path, write_columns
+from dq_marine.agents.settings import EnvironmentSettings
+from dq_marine.envs.core.marine_env import MarineEnv
+from dq_marine.errors import InvalidInputError
+
+MOST_SEEDS = 1000
+"""Tried for a start that is far from the goal."""
+
+
+@dataclass(frozen=True)
+class FlightPlan:
+    """What to fly.
+
+    Attributes:
+        environment: the task.
+        seconds: simulated time [s].
+        seed: of the episode; None for the first from 0 whose start is far from the goal.
+        start_distance: from the goal [m], at the goal's depth; None draws the whole start.
+        start: further options of the environment's reset.
+    """
+
+    environment: EnvironmentSettings
+    seconds: float = 30.0
+    seed: int | None = None
+    start_distance: float | None = None
+    start: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Outputs:
+    """Where the flight is shown.
+
+    Attributes:
+        live: in a page in the browser, at real time; its address is told on standard error.
+        html: a replay is written to this file.
+        plot: metrics and actions are drawn into this file.
+        trajectory: what was flown is written to this file, see `Episode.columns`.
+    """
+
+    live: bool = False
+    html: Path | None = None
+    plot: Path | None = None
+    trajectory: Path | None = None
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """Those that are written."""
+        return tuple(path for path in (self.html, self.plot, self.trajectory) if path is not None)
+
+
+def fly(
+    plan: FlightPlan,
+    make_agent: Callable[[gym.Env[Any, Any]], Agent],
+    outputs: Outputs,
+    *,
+    title: str,
+) -> Episode:
+    """Fly one episode and show it.
+
+    Args:
+        plan: what to fly.
+        make_agent: given the environment, returns the agent that flies it.
+        outputs: where to show it; Ctrl-C ends a live flight early and still writes the files.
+        title: above the plot; "{seed}" in it becomes the seed.
+
+    Raises:
+        InvalidInputError: the plan is wrong, or a file cannot be written.
+        MissingDependencyError: the viewer's or the plot's libraries are not installed.
+    """
+    _check_files(outputs)
+    env = _make(plan, outputs)
+    try:
+        agent = make_agent(env)
+        seed = far_seed(plan) if plan.seed is None else plan.seed
+        options = {**_start_options(env, plan, seed), **plan.start}
+        episode = fly_episode(
+            env,
+            agent,
+            seed=seed,
+            options=options,
+            interruptible=outputs.live,
+            track=outputs.trajectory is not None,
+        )
+        if outputs.html is not None:
+            marine(env).save_html(outputs.html)
+        if outputs.plot is not None:
+            from dq_marine.agents.evaluation.error_plot import save_plot
+
+            save_plot(episode, outputs.plot, title=title.replace("{seed}", str(seed)))
+        if outputs.trajectory is not None:
+            write_columns(episode.columns(), outputs.trajectory)
+    finally:
+        env.close()
+    return episode
+
+
+def episode_table(episode: Episode) -> Table:
+    """Return what came out of a flight as a table."""
+    table = Table(show_header=False)
+    table.add_column("quantity")
+    table.add_column("value", justify="right", style="bold")
+    for metric in episode.metrics:
+        values = metric.shown(episode.measured[metric.name])
+        table.add_row(f"{metric.label}, start", metric.text(values[0]))
+        table.add_row(f"{metric.label}, end", metric.text(values[-1]))
+        table.add_row(
+            f"{metric.label}, mean of the last third", metric.text(values[episode.last_third].mean())
+        )
+    if episode.tolerances:
+        limits = " and ".join(
+            f"{metric.shown(tolerance):.4g} {metric.shown_unit}".rstrip()
+            for metric, tolerance in episode.tolerances.items()
+        )
+        settled = "not" if episode.settling_time is None else f"after {episode.settling_time:.1f} s"
+        table.add_row(f"settled within {limits}", settled)
+    table.add_row("return", f"{episode.total_reward:.1f}")
+    for name, values in episode.reward_terms.items():
+        table.add_row(f"  of which {name.removeprefix(REWARD_PREFIX)}", f"{math.fsum(values.tolist()):.1f}")
+    if episode.ended_early:
+        table.add_row("ended early", f"after {episode.time[-1]:.1f} s")
+    table.add_row("seed", str(episode.seed))
+    return table
+
+
+def far_seed(plan: FlightPlan) -> int:
+    """Return the first seed from 0 whose start is at least half the start radius away from the goal.
+
+    It is 0 for tasks without a goal or a start radius, and where the plan says where to start.
+    """
+    if plan.start_distance is not None or "position" in plan.start:
+        return 0
+    env = make_environment(plan.environment)  # not the one that is flown: nobody is to see these starts
+    inner = marine(env)
+    radius = float(getattr(inner, "start_radius", 0.0))
+    for seed in range(MOST_SEEDS if radius > 0.0 else 0):
+        env.reset(seed=seed, options=plan.start or None)
+        goal = inner.snapshot().goal_position_ned
+        if goal is None or math.dist(inner.position_ned, goal) >= 0.5 * radius:
+            return seed
+    return 0
+
+
+def _check_files(outputs: Outputs) -> None:
+    """Refuse before the flight what could not be written after it."""
+    for path in outputs.files:
+        if not path.parent.is_dir():
+            raise InvalidInputError(f"the folder {path.parent} does not exist; create it first")
+    if outputs.plot is not None:
+        from dq_marine.util.figures import check_picture_path
+
+        check_picture_path(outputs.plot, extra="agents")
+    if outputs.trajectory is not None:
+        check_trajectory_path(outputs.trajectory)
+
+
+def _make(plan: FlightPlan, outputs: Outputs) -> gym.Env[Any, Any]:
+    """Return the environment with the plan's time limit in place of its own."""
+    mode = "human" if outputs.live else None
+    inner = marine(make_environment(plan.environment, render_mode=mode, record=outputs.html is not None))
+    if not (math.isfinite(plan.seconds) and plan.seconds >= inner.control_period):
+        raise InvalidInputError(
+            f"seconds = {plan.seconds:g}; give a time of at least one control period, {inner.control_period:g} s"
+        )
+    return TimeLimit(inner, max_episode_steps=round(plan.seconds / inner.control_period))
+
+
+def _start_options(env: gym.Env[Any, Any], plan: FlightPlan, seed: int) -> dict[str, Any]:
+    """Return reset's options for a start at the plan's distance, in a direction that follows from the seed."""
+    distance = plan.start_distance
+    if distance is None:
+        return {}
+    inner = marine(env)
+    farthest = getattr(inner, "workspace_radius", math.inf)
+    if not 0.0 <= distance < farthest:
+        raise InvalidInputError(
+            f"start distance = {distance:g} m; give 0 or more and less than the workspace radius, {farthest:g} m"
+        )
+    goal = _goal_position(inner, seed)
+    direction = np.random.default_rng(seed).uniform(-math.pi, math.pi)
+    return {"position": goal + distance * np.array([math.cos(direction), math.sin(direction), 0.0])}
+
+
+def _goal_position(env: MarineEnv, seed: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Return where the episode of this seed has its goal, NED [m]."""
+    env.reset(seed=seed)
+    goal = env.snapshot().goal_position_ned
+    if goal is None:
+        raise InvalidInputError(
+            "this task has no goal to start at a distance from; leave the start distance out"
+        )
+    return goal

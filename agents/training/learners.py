@@ -1,0 +1,143 @@
+"""Stable-Baselines3 models and vector environments, from settings.
+
+SB3's zip and pickle files run code when they are loaded: load only runs that you trust.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from dq_marine.agents.environments import make_environments
+from dq_marine.agents.settings import PPOSettings, SACSettings, TrainingSettings
+from dq_marine.agents.training.reward_sums import RewardSums
+from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
+from dq_marine.agents.training.vec_env import MarineVecEnv
+from dq_marine.envs.vector.vector_env import MarineVectorEnv
+from dq_marine.errors import InvalidInputError
+from dq_marine.util.extras import extra_needed
+
+with extra_needed("training", "agents"):
+    import torch
+    from stable_baselines3 import PPO, SAC
+    from stable_baselines3.common.base_class import BaseAlgorithm
+    from stable_baselines3.common.vec_env import VecMonitor, VecNormalize
+
+Model: TypeAlias = BaseAlgorithm
+"""A `PPO` or a `SAC`."""
+
+MODEL_CLASSES: dict[str, type[PPO] | type[SAC]] = {"ppo": PPO, "sac": SAC}
+ACTIVATIONS = {"tanh": torch.nn.Tanh, "relu": torch.nn.ReLU}
+
+DEVICE = "cpu"
+"""Networks this small wait longer for an accelerator than they compute."""
+
+
+@dataclass(frozen=True)
+class LinearSchedule:
+    """A learning rate that falls linearly from `first` to `last`; a class of ours, so that it can be pickled."""
+
+    first: float
+    last: float
+
+    def __call__(self, progress_remaining: float) -> float:
+        """Return the rate; `progress_remaining` falls from 1 to 0."""
+        return self.last + (self.first - self.last) * progress_remaining
+
+
+def make_training_envs(settings: TrainingSettings) -> VecNormalize:
+    """Return the environments to learn in, normalised with running statistics; a model seeds env i with seed + i."""
+    normalisation = settings.normalisation
+    return VecNormalize(
+        _environments(settings, settings.envs),
+        norm_obs=normalisation.observation,
+        norm_reward=normalisation.reward,
+        clip_obs=normalisation.clip,
+        clip_reward=normalisation.clip,
+        gamma=settings.algorithm.gamma,
+    )
+
+
+def make_evaluation_envs(settings: TrainingSettings) -> VecNormalize:
+    """Return environments to evaluate in, one for each episode; their normalisation follows the training's."""
+    return VecNormalize(
+        _environments(settings, settings.evaluation.episodes),
+        training=False,
+        norm_obs=settings.normalisation.observation,
+        norm_reward=False,
+        clip_obs=settings.normalisation.clip,
+    )
+
+
+def make_model(settings: TrainingSettings, seed: int, tensorboard: Path) -> Model:
+    """Return an untrained model with its environments; it logs into the folder `tensorboard`."""
+    algorithm = settings.algorithm
+    network = {
+        "net_arch": list(settings.network.layers),
+        "activation_fn": ACTIVATIONS[settings.network.activation],
+    }
+    common: dict[str, Any] = {
+        "policy": "MlpPolicy",
+        "env": make_training_envs(settings),
+        "learning_rate": LinearSchedule(algorithm.learning_rate, algorithm.final_learning_rate),
+        "gamma": algorithm.gamma,
+        "ent_coef": algorithm.ent_coef,
+        "seed": seed,
+        "tensorboard_log": str(tensorboard),
+        "device": DEVICE,
+    }
+    if isinstance(algorithm, SACSettings):
+        return SAC(**common, **_sac_keywords(algorithm), policy_kwargs=network)
+    network["log_std_init"] = algorithm.log_std_init
+    return PPO(**common, **_ppo_keywords(algorithm, settings.envs), policy_kwargs=network)
+
+
+def environments_of(model: Model) -> MarineVectorEnv:
+    """Return the environments that a model learns in, inside their wrappers."""
+    envs = model.get_env()
+    inner = envs.unwrapped if envs is not None else None
+    if not isinstance(inner, MarineVecEnv):
+        raise InvalidInputError(f"{model} learns in {inner}, not in environments of dq_marine")
+    return inner.marine
+
+
+def save_model(model: Model, folder: Path, *, replay_buffer: bool) -> None:
+    """Write model, normalisation and, where asked for and there is one, replay buffer into a folder."""
+    model.save(folder / MODEL_FILE)
+    normalisation = model.get_vec_normalize_env()
+    if normalisation is not None:
+        normalisation.save(str(folder / NORMALISATION_FILE))
+    if replay_buffer and isinstance(model, SAC):
+        model.save_replay_buffer(folder / REPLAY_BUFFER_FILE)
+
+
+def load_model(settings: TrainingSettings, folder: Path, seed: int, tensorboard: Path) -> Model:
+    """Return the model that `save_model` wrote with its replay buffer, ready to go on learning.
+
+    Episodes begin anew, from another seed than the run began with, or the same starts would be learned twice.
+    """
+    envs = VecNormalize.load(str(folder / NORMALISATION_FILE), make_training_envs(settings).venv)
+    model = MODEL_CLASSES[settings.algorithm.name].load(
+        folder / MODEL_FILE, env=envs, device=DEVICE, tensorboard_log=str(tensorboard)
+    )
+    model.set_random_seed(seed)
+    if isinstance(model, SAC):
+        model.load_replay_buffer(folder / REPLAY_BUFFER_FILE)
+    return model
+
+
+def _ppo_keywords(algorithm: PPOSettings, envs: int) -> dict[str, Any]:
+    same = ("n_steps", "n_epochs", "gae_lambda", "clip_range", "vf_coef", "max_grad_norm")
+    batch_size = envs * algorithm.n_steps // algorithm.minibatches
+    return {"batch_size": batch_size, **{name: getattr(algorithm, name) for name in same}}
+
+
+def _sac_keywords(algorithm: SACSettings) -> dict[str, Any]:
+    same = ("buffer_size", "learning_starts", "batch_size", "tau", "train_freq", "gradient_steps")
+    return {name: getattr(algorithm, name) for name in same}
+
+
+def _environments(settings: TrainingSettings, count: int) -> VecMonitor:
+    """Return environments that are stepped together and report their episodes."""
+    return VecMonitor(MarineVecEnv(RewardSums(make_environments(settings.environment, count))))

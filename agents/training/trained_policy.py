@@ -1,0 +1,61 @@
+"""A policy that was trained with Stable-Baselines3, as an agent."""
+
+from __future__ import annotations
+
+import pickle
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+
+from dq_marine.agents.training.learners import MODEL_CLASSES
+from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, RunFolder
+from dq_marine.envs.core.marine_env import Action, Observation
+from dq_marine.errors import InvalidInputError
+
+
+class TrainedPolicy:
+    """The best model of a run (the latest, if none was evaluated yet), without exploration.
+
+    SB3's model.zip and normalisation.pkl are unpickled, which runs whatever code they hold: load only runs that
+    you trust.
+    """
+
+    def __init__(self, folder: RunFolder) -> None:
+        """Load model and normalisation.
+
+        Raises:
+            InvalidInputError: there is no run in the folder, or it has saved no model yet.
+            MissingDependencyError: Stable-Baselines3 is not installed.
+        """
+        self.settings = folder.read_plan().settings
+        snapshot = folder.latest("best") or folder.latest("checkpoints")
+        if snapshot is None:
+            raise InvalidInputError(
+                f"{folder.path} has saved no model yet; continue it with `dq-marine train --run {folder.path} "
+                "--resume`"
+            )
+        model_class = MODEL_CLASSES[self.settings.algorithm.name]
+        self._model = model_class.load(snapshot / MODEL_FILE, device="cpu")
+        self._normalisation = pickle.loads((snapshot / NORMALISATION_FILE).read_bytes())  # noqa: S301 - said above
+
+    def reset(self, env: gym.Env[Any, Any]) -> None:
+        """Check that the policy fits the environment; it keeps nothing from step to step.
+
+        Raises:
+            InvalidInputError: it was trained on other observations or actions.
+        """
+        for name, trained, found in (
+            ("observation", self._model.observation_space, env.observation_space),
+            ("action", self._model.action_space, env.action_space),
+        ):
+            if trained.shape != found.shape:
+                raise InvalidInputError(
+                    f"the policy was trained with {name} shape {trained.shape}, the environment has {found.shape}; "
+                    "fly it with the task and vehicle that it was trained with"
+                )
+
+    def act(self, observation: Observation) -> Action:
+        """Return the most likely action, shape (n,)."""
+        action, _ = self._model.predict(self._normalisation.normalize_obs(observation), deterministic=True)
+        return np.asarray(action, dtype=np.float32)

@@ -1,0 +1,55 @@
+"""The public names of dq_marine. Each line makes a name public; `dq_marine.util.lazy_names` reads them here."""
+
+from dq_marine.algebra.spatial import Spatial as Spatial
+from dq_marine.envs.core.definition import TaskDefinition as TaskDefinition
+from dq_marine.envs.core.module_task import define_task as define_task
+from dq_marine.envs.core.registry import register_task as register_task
+from dq_marine.errors import DQMarineError as DQMarineError
+from dq_marine.errors import InvalidInputError as InvalidInputError
+from dq_marine.errors import MissingDependencyError as MissingDependencyError
+from dq_marine.errors import StepNotSolvableError as StepNotSolvableError
+from dq_marine.errors import UnknownKeywordError as UnknownKeywordError
+from dq_marine.errors import UnsuitableVehicleWarning as UnsuitableVehicleWarning
+from dq_marine.errors import VehicleFileError as VehicleFileError
+from dq_marine.physics.actuators.allocation import Allocation as Allocation
+from dq_marine.physics.actuators.allocation import ThrustAllocator as ThrustAllocator
+from dq_marine.physics.current.build import CurrentProfile as CurrentProfile
+from dq_marine.physics.current.build import GaussMarkovCurrent as GaussMarkovCurrent
+from dq_marine.physics.term import ForceTerm as ForceTerm
+from dq_marine.physics.weather import DriftCoefficients as DriftCoefficients
+from dq_marine.physics.weather import ForceRAO as ForceRAO
+from dq_marine.physics.weather import Jonswap as Jonswap
+from dq_marine.physics.weather import ModifiedPiersonMoskowitz as ModifiedPiersonMoskowitz
+from dq_marine.physics.weather import PiersonMoskowitz as PiersonMoskowitz
+from dq_marine.physics.weather import Sea as Sea
+from dq_marine.physics.weather import SlowDrift as SlowDrift
+from dq_marine.physics.weather import WaveLoads as WaveLoads
+from dq_marine.physics.weather import Wind as Wind
+from dq_marine.physics.weather import Windage as Windage
+from dq_marine.physics.weather import read_force_rao as read_force_rao
+from dq_marine.randomisation import Randomisation as Randomisation
+from dq_marine.randomisation import randomisation_names as randomisation_names
+from dq_marine.randomisation import spread_of as spread_of
+from dq_marine.simulation.batch import Batch as Batch
+from dq_marine.simulation.one_body import OneBody as OneBody
+from dq_marine.simulation.scene import Scene as Scene
+from dq_marine.simulation.scene import batch_of as batch_of
+from dq_marine.simulation.settings import Settings as Settings
+from dq_marine.task.protocol import RewardTerm as RewardTerm
+from dq_marine.task.sensors.build import AHRS as AHRS
+from dq_marine.task.sensors.build import DVL as DVL
+from dq_marine.task.sensors.build import GNSS as GNSS
+from dq_marine.task.sensors.build import Accelerometer as Accelerometer
+from dq_marine.task.sensors.build import DepthMeter as DepthMeter
+from dq_marine.task.sensors.build import Gyroscope as Gyroscope
+from dq_marine.task.sensors.errors import Instrument as Instrument
+from dq_marine.task.sensors.sensor import Sensor as Sensor
+from dq_marine.vehicles import Sheet as Sheet
+from dq_marine.vehicles import Vehicle as Vehicle
+from dq_marine.vehicles import ellipsoid as ellipsoid
+from dq_marine.vehicles import load_vehicle as load_vehicle
+from dq_marine.vehicles import spheroid as spheroid
+from dq_marine.vehicles import vehicle_names as vehicle_names
+from dq_marine.vehicles import vehicle_sheet as vehicle_sheet
+
+__version__: str

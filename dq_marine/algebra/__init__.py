@@ -1,0 +1,1 @@
+"""Vectors, matrices, quaternions, dual quaternions and screws as plain functions on tuples of components."""

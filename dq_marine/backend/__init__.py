@@ -1,0 +1,1 @@
+"""How pure functions are run: compiled by Numba, for one body or for many."""

@@ -1,0 +1,154 @@
+"""Compiled code on disk. Numba keeps and finds it; here is where, by which key, and what happens if that fails.
+
+What Numba documents of its cache is `jit(cache=True)` alone, which cannot key a closure by what it is made of. So its
+classes are used here, and nothing of theirs may stand in the way of compiling: whatever goes wrong in loading or
+keeping is said once, and the function is compiled and runs.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import hashlib
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+
+from dq_marine.util.announce import announce
+
+CACHE_DIRECTORY_VARIABLE = "DQ_MARINE_CACHE_DIR"
+
+
+def cache_directory() -> Path:
+    """Return the folder for compiled code: $DQ_MARINE_CACHE_DIR, else the user's cache folder."""
+    chosen = os.environ.get(CACHE_DIRECTORY_VARIABLE)
+    if chosen:
+        return Path(chosen)
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "dq_marine"
+
+
+def keep_on_disk(compiled: Any, function: Callable[..., Any], key: str, fingerprint: str) -> None:
+    """Let a dispatcher of Numba's load its code from disk, and keep there what it compiles.
+
+    Args:
+        compiled: the dispatcher.
+        function: what it compiles.
+        key: tells the function from all others of the same sources.
+        fingerprint: of the sources.
+    """
+    if not _writable(cache_directory()):
+        return
+    try:
+        compiled._cache = _CompositionCache(function, key, fingerprint)
+    except Exception as error:  # Numba's own, of a version that is made otherwise
+        _announce_failure("kept", _reason(error))
+
+
+class _Locator(_CacheLocator):
+    """Places compiled code under `cache_directory()`, in a folder named by the source fingerprint."""
+
+    def __init__(self, folder: Path, fingerprint: str) -> None:
+        self._folder = folder
+        self._fingerprint = fingerprint
+
+    def get_cache_path(self) -> str:
+        return str(self._folder)
+
+    def get_source_stamp(self) -> str:
+        return self._fingerprint
+
+    def get_disambiguator(self) -> str:
+        return "dq"
+
+
+class _CompositionCache(FunctionCache):
+    """Numba's cache with a key that follows the composition.
+
+    Numba keys a closure on a pickle of its cells, which differs from process to process when a cell holds a
+    function; here the functions' names and constants stand for them, and the fingerprint for their text.
+    """
+
+    def __init__(self, function: Callable[..., Any], key: str, fingerprint: str) -> None:
+        folder = cache_directory() / fingerprint
+        base = hashlib.sha256(key.encode()).hexdigest()[:20]
+
+        class Implementation(CompileResultCacheImpl):
+            def __init__(self, py_func: Callable[..., Any]) -> None:
+                self._lineno = py_func.__code__.co_firstlineno
+                self._locator = _Locator(folder, fingerprint)
+                self._filename_base = base
+
+            def check_cachable(self, cres: Any) -> bool:
+                """Whether another process can load it. Numba's own method warns, of a file that this has not."""
+                if cres.library.has_dynamic_globals:
+                    _announce_failure("kept", "it holds addresses of this process, as with NUMBA_OPT=0")
+                    return False
+                return True
+
+        self._impl_class = Implementation
+        self._key = key
+        self._files = folder, base
+        super().__init__(function)
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        return sig, codegen.magic_tuple(), self._key
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return what is on disk for a signature, None if nothing is that can be loaded."""
+        try:
+            loaded = super().load_overload(sig, target_context)
+        except Exception as error:  # a pickle of anything fails with anything
+            _announce_failure("loaded", _reason(error))
+            self._drop()
+            loaded = None
+        if loaded is None:
+            announce_compilation()
+        return loaded
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep what was compiled for a signature, if that can be done."""
+        try:
+            super().save_overload(sig, data)
+        except Exception as error:  # no space is left, or something that no pickle takes
+            _announce_failure("kept", _reason(error))
+
+    def _drop(self) -> None:
+        """Remove the function's files, so that they are written anew."""
+        folder, base = self._files
+        for path in folder.glob(f"{base}.*"):
+            with contextlib.suppress(OSError):
+                path.unlink()
+
+
+@functools.cache
+def announce_compilation() -> None:
+    """Say, once, why a first step takes long."""
+    announce("compiling for this scene, some ten seconds; kept for the next time")
+
+
+@functools.cache
+def _announce_failure(what: str, reason: str) -> None:
+    """Say, once for each reason, that compiled code could not be loaded or kept."""
+    announce(f"compiled code cannot be {what} in {cache_directory()}: {reason}; compiling goes on")
+
+
+def _reason(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}"
+
+
+@functools.cache
+def _writable(folder: Path) -> bool:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        announce(
+            f"{folder} cannot be written, so compiled code is not kept; set {CACHE_DIRECTORY_VARIABLE} to a "
+            "folder that can"
+        )
+        return False

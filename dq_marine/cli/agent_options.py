@@ -1,0 +1,144 @@
+"""From what people type to settings: the environment to fly in, the training to do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from dq_marine.agents.choice import common_environment
+from dq_marine.agents.environments import DEFAULT_ENVIRONMENT
+from dq_marine.agents.keywords import with_changes
+from dq_marine.agents.preset_files import read_environment, read_settings, validate_settings
+from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
+from dq_marine.cli.keyword_values import read_keywords
+from dq_marine.errors import InvalidInputError
+from dq_marine.vehicles import vehicle_names
+
+DEFAULT_ALGORITHM = "ppo"
+
+
+@dataclass(frozen=True)
+class EnvironmentOptions:
+    """What was asked of the environment; None and () leave it as it is.
+
+    Attributes:
+        task: id of another environment.
+        vehicle: a catalogue name or a file's path.
+        current: as `parsed_current` takes it.
+        keywords: as `--set` takes them.
+    """
+
+    task: str | None = None
+    vehicle: str | None = None
+    current: str | None = None
+    keywords: tuple[str, ...] = ()
+
+    def applied(self, settings: EnvironmentSettings) -> EnvironmentSettings:
+        """Return settings with what was asked for in its place.
+
+        Raises:
+            InvalidInputError: an option is wrong, two contradict each other, or the environment has no such keyword.
+        """
+        changes = read_keywords(self.keywords)
+        for name, value in (("vehicle", self.vehicle), ("current", self.current)):
+            if value is not None and name in changes:
+                raise InvalidInputError(
+                    f"--{name} {value} and --set {name}=... both say it; give one of them"
+                )
+        if self.vehicle is not None:
+            changes["vehicle"] = self.vehicle
+        if self.current is not None:
+            changes["current"] = parsed_current(self.current)
+        if isinstance(changes.get("vehicle"), str):
+            changes["vehicle"] = _findable(changes["vehicle"])
+        return with_changes(settings, changes, identifier=self.task)
+
+    def given(self) -> dict[str, Any]:
+        """Return the options by name, None for those that were not given."""
+        return {
+            "task": self.task,
+            "vehicle": self.vehicle,
+            "current": self.current,
+            "set": self.keywords or None,
+        }
+
+
+def requested_environment(
+    runs: list[Path], options: EnvironmentOptions, *, preset: str | None = None
+) -> EnvironmentSettings:
+    """Return the environment of training runs, of a preset, or station keeping, with what was asked for in its place.
+
+    Args:
+        runs: folders of training runs.
+        options: what was asked for.
+        preset: a name or a file's path; None takes the runs' environment or the default.
+
+    Raises:
+        InvalidInputError: a folder holds no run, the runs disagree, or an option is wrong.
+    """
+    if preset is not None and runs:
+        raise InvalidInputError(
+            f"--preset {preset} and --run {runs[0]} both say what to fly in; give one of them"
+        )
+    base = DEFAULT_ENVIRONMENT if preset is None else read_environment(preset)
+    return common_environment(runs, base=base, change=options.applied)
+
+
+def requested_training(
+    options: EnvironmentOptions,
+    *,
+    algorithm: str | None = None,
+    preset: str | None = None,
+    timesteps: int | None = None,
+    envs: int | None = None,
+) -> TrainingSettings:
+    """Return a preset's settings with what was asked for in its place.
+
+    Args:
+        options: of the environment.
+        algorithm: "ppo" or "sac", for the preset of that name; None takes the preset's, or "ppo".
+        preset: a name or a file's path; None takes the algorithm's.
+        timesteps: in all; None keeps the preset's, and so on for the others.
+        envs: environments to learn from.
+
+    Raises:
+        InvalidInputError: the preset or an option is wrong, or they contradict each other.
+    """
+    source = preset or algorithm or DEFAULT_ALGORITHM
+    settings = read_settings(source, TrainingSettings)
+    if algorithm is not None and algorithm != settings.algorithm.name:
+        raise InvalidInputError(
+            f"--algorithm {algorithm} does not go with --preset {preset}, which is for {settings.algorithm.name}; "
+            "leave --algorithm out"
+        )
+    asked = {"timesteps": timesteps, "envs": envs}
+    content = settings.model_dump()
+    content.update({name: value for name, value in asked.items() if value is not None})
+    content["environment"] = options.applied(settings.environment).model_dump()
+    return validate_settings(content, TrainingSettings, source=f"{source} with these options")
+
+
+def parsed_current(text: str) -> float | list[float]:
+    """Return a speed from "0.3", or three components from "0.2,-0.1,0" [m/s].
+
+    Raises:
+        InvalidInputError: it is neither.
+    """
+    try:
+        numbers = [float(part) for part in text.split(",")]
+    except ValueError:
+        numbers = []
+    if len(numbers) not in (1, 3):
+        raise InvalidInputError(
+            f"--current {text} is neither a speed nor three components; give 0.3 or 0.2,-0.1,0 (no spaces) [m/s]"
+        )
+    return numbers[0] if len(numbers) == 1 else numbers
+
+
+def _findable(vehicle: str) -> str:
+    """Return a file's absolute path, so that a run can be flown from any folder; a catalogue name as it is."""
+    path = Path(vehicle).expanduser()
+    if vehicle in vehicle_names() or not path.is_file():
+        return vehicle
+    return str(path.resolve())

@@ -1,0 +1,172 @@
+"""The command `dq-marine evaluate`: agents over the same episodes."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from dq_marine.cli.common import console, examples
+from dq_marine.cli.options import (
+    Baseline,
+    CurrentOption,
+    EnvironmentPresetOption,
+    PrintPresetOption,
+    SetOption,
+    TaskOption,
+    VehicleOption,
+    print_preset,
+)
+
+if TYPE_CHECKING:
+    from dq_marine.agents.evaluation.episodes import Episode
+    from dq_marine.agents.evaluation.evaluation import Score
+    from dq_marine.agents.settings import EnvironmentSettings
+
+EXAMPLES = examples(
+    "dq-marine evaluate",
+    "dq-marine evaluate --run runs/ppo --agent controller --agent zero --episodes 100",
+    "dq-marine evaluate --run runs/ppo --set current=0.5",
+    "dq-marine evaluate --agent controller --set control_period=0.2 --set reward.effort=0.1",
+    "dq-marine evaluate --run runs/ppo --episodes 10 --trajectories flights --format parquet",
+)
+
+
+class Format(StrEnum):
+    """What `--format` takes."""
+
+    CSV = "csv"
+    PARQUET = "parquet"
+
+
+def evaluate(
+    agent: Annotated[
+        list[Baseline] | None,
+        typer.Option(
+            "--agent", help="A baseline; may be repeated.", show_default="all, if no --run is given"
+        ),
+    ] = None,
+    run: Annotated[
+        list[Path] | None,
+        typer.Option("--run", help="Folder of a training run; may be repeated. Load only runs you trust."),
+    ] = None,
+    episodes: Annotated[
+        int, typer.Option("--episodes", min=1, help="Number of episodes of each agent.")
+    ] = 50,
+    seed: Annotated[
+        int, typer.Option("--seed", min=0, help="Seed of the first episode; the others count up from it.")
+    ] = 0,
+    preset: EnvironmentPresetOption = None,
+    task: TaskOption = None,
+    vehicle: VehicleOption = None,
+    current: CurrentOption = None,
+    set_: SetOption = None,
+    json: Annotated[Path | None, typer.Option("--json", help="Write the scores into this file, too.")] = None,
+    trajectories: Annotated[
+        Path | None,
+        typer.Option(
+            "--trajectories", help="Write a file for each episode, AGENT_SEED.csv, into this folder."
+        ),
+    ] = None,
+    form: Annotated[Format, typer.Option("--format", help="Format of these files.")] = Format.CSV,
+    only_print: PrintPresetOption = False,
+) -> None:
+    """Compare agents over the same seeded episodes: metrics, returns, success.
+
+    A run is evaluated in what it was trained in, or where an option says so, under other conditions: the table says
+    which.
+    """
+    from dq_marine.agents.choice import make_agents, other_conditions
+    from dq_marine.agents.environments import make_environment
+    from dq_marine.agents.evaluation.evaluation import score_table
+    from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment
+
+    runs = run or []
+    baselines = agent or ([] if runs else list(Baseline))
+    options = EnvironmentOptions(task, vehicle, current, tuple(set_ or ()))
+    environment = requested_environment(runs, options, preset=preset)
+    if only_print:
+        print_preset(environment, "environment")
+        return
+    env = make_environment(environment)
+    agents = make_agents(baselines, runs, env, seed=seed)
+    keep = None if trajectories is None else _keeper(trajectories, form)
+    scores = _evaluated(env, agents, episodes, seed, keep)
+    conditions = other_conditions(runs, environment)
+    console.print(score_table(scores, _notes(conditions)))
+    if json is not None:
+        _write_scores(json, environment, seed, scores, conditions)
+        console.print(f"Wrote {json}", soft_wrap=True)
+    if trajectories is not None:
+        console.print(f"Wrote {episodes * len(agents)} trajectories into {trajectories}", soft_wrap=True)
+
+
+def _evaluated(env: Any, agents: Any, episodes: int, seed: int, keep: Any) -> list[Score]:
+    """Evaluate behind a progress bar; `keep` is called with agent and episode, if it is not None."""
+    from rich.progress import Progress
+
+    from dq_marine.agents.evaluation.evaluation import evaluate as evaluate_agents
+
+    with Progress(console=console, transient=True) as bar:
+        shown = bar.add_task("evaluating", total=episodes * len(agents))
+
+        def advance(name: str, episode: Episode) -> None:
+            if keep is not None:
+                keep(name, episode)
+            bar.update(shown, advance=1, description=f"evaluating {name}")
+
+        return evaluate_agents(
+            env, agents, episodes=episodes, seed=seed, after_episode=advance, track=keep is not None
+        )
+
+
+def _keeper(folder: Path, form: Format) -> Any:
+    """Return what writes an episode's trajectory; refuse now what could not be written later."""
+    from dq_marine.agents.evaluation.trajectory import check_trajectory_path, made_folder, write_columns
+
+    made_folder(folder)
+    check_trajectory_path(folder / f"any.{form}")
+
+    def keep(name: str, episode: Episode) -> None:
+        write_columns(episode.columns(), folder / f"{name}_{episode.seed}.{form}")
+
+    return keep
+
+
+def _notes(conditions: dict[str, dict[str, tuple[Any, Any]]]) -> list[str]:
+    """Say under which other conditions than its training's a run was evaluated."""
+
+    def said(value: Any) -> str:
+        return "the default" if value is None else f"{value}"
+
+    return [
+        f"{name} was trained under other conditions: "
+        + ", ".join(
+            f"{key} = {said(trained)}, here {said(here)}" for key, (trained, here) in differing.items()
+        )
+        for name, differing in conditions.items()
+    ]
+
+
+def _write_scores(
+    path: Path,
+    environment: EnvironmentSettings,
+    seed: int,
+    scores: list[Score],
+    conditions: dict[str, dict[str, tuple[Any, Any]]],
+) -> None:
+    from dq_marine.util.files import write_json
+
+    differing = {
+        run: {key: {"trained": trained, "here": here} for key, (trained, here) in keys.items()}
+        for run, keys in conditions.items()
+    }
+    content = {
+        "environment": environment.model_dump(mode="json"),
+        "other_conditions": differing,
+        "seed": seed,
+        "scores": [score.as_dict() for score in scores],
+    }
+    write_json(path, content)

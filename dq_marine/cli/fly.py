@@ -1,0 +1,107 @@
+"""The command `dq-marine fly`: one episode to look at."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from dq_marine.cli.common import console, examples
+from dq_marine.cli.options import (
+    Baseline,
+    CurrentOption,
+    EnvironmentPresetOption,
+    PrintPresetOption,
+    SetOption,
+    TaskOption,
+    VehicleOption,
+    print_preset,
+)
+from dq_marine.errors import InvalidInputError
+
+EXAMPLES = examples(
+    "dq-marine fly --live --start-distance 2",
+    "dq-marine fly --run runs/ppo --html ppo.html --plot ppo.png --seed 3",
+    "dq-marine fly --agent zero --current 0.2,-0.1,0 --seconds 60 --html drift.html",
+    "dq-marine fly --set actuation=thrusters --trajectory flight.csv",
+    """dq-marine fly --set 'weather=\\[{"kind": "wind", "speed": 8}]' --vehicle otter --agent zero --plot otter.png""",
+)
+
+
+def fly(
+    agent: Annotated[
+        Baseline | None, typer.Option("--agent", help="Agent that flies.", show_default="controller")
+    ] = None,
+    run: Annotated[
+        Path | None,
+        typer.Option("--run", help="Folder of a training run: its policy flies. Load only runs you trust."),
+    ] = None,
+    html: Annotated[Path | None, typer.Option("--html", help="Write a replay into this file.")] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option("--plot", help="Draw metrics and actions into this file (.png, .svg, .pdf)."),
+    ] = None,
+    trajectory: Annotated[
+        Path | None,
+        typer.Option(
+            "--trajectory",
+            help="Write time, pose, velocity, actions, reward and metrics into this file (.csv, .parquet).",
+        ),
+    ] = None,
+    live: Annotated[
+        bool,
+        typer.Option(
+            "--live",
+            help="Show the flight in the browser, in real time. This is the default if no file is named.",
+        ),
+    ] = False,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            "--seed",
+            min=0,
+            help="Seed of the start and the current.",
+            show_default="the first whose start is at least half the start radius away from the goal",
+        ),
+    ] = None,
+    preset: EnvironmentPresetOption = None,
+    task: TaskOption = None,
+    vehicle: VehicleOption = None,
+    current: CurrentOption = None,
+    set_: SetOption = None,
+    seconds: Annotated[float, typer.Option("--seconds", help="Simulated time, in seconds.")] = 30.0,
+    start_distance: Annotated[
+        float | None,
+        typer.Option(
+            "--start-distance", help="Distance of the start from the goal, in metres.", show_default="drawn"
+        ),
+    ] = None,
+    only_print: PrintPresetOption = False,
+) -> None:
+    """Fly one episode: live in the browser, into a replay, into a plot, into a table of numbers."""
+    from dq_marine.agents.choice import make_agents
+    from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, episode_table
+    from dq_marine.agents.evaluation.flight import fly as fly_once
+    from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment
+
+    if agent is not None and run is not None:
+        raise InvalidInputError(f"--agent {agent} and --run {run} name two agents; give one of them")
+    runs = [] if run is None else [run]
+    baselines = [agent or Baseline.CONTROLLER] if run is None else []
+    options = EnvironmentOptions(task, vehicle, current, tuple(set_ or ()))
+    environment = requested_environment(runs, options, preset=preset)
+    if only_print:
+        print_preset(environment, "environment")
+        return
+    shown = live or (html is None and plot is None and trajectory is None)
+    outputs = Outputs(live=shown, html=html, plot=plot, trajectory=trajectory)
+    episode = fly_once(
+        FlightPlan(environment, seconds, seed, start_distance),
+        lambda env: next(iter(make_agents(baselines, runs, env, seed=seed or 0).values())),
+        outputs,
+        title=f"{run or baselines[0]}, seed {{seed}}",
+    )
+    console.print(episode_table(episode))
+    for path in outputs.files:
+        console.print(f"Wrote {path}", soft_wrap=True)

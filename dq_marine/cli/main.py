@@ -1,0 +1,55 @@
+"""The command line, `dq-marine`: the commands stand in files of their names.
+
+Everything heavy is imported inside the commands, so that `dq-marine --help` answers at once and needs nothing
+beyond the core.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from dq_marine import __version__
+from dq_marine.cli import add, demo, evaluate, fly, report, sea, tasks, train
+from dq_marine.cli.common import HELP_OPTIONS, Commands, console
+from dq_marine.cli.manoeuvre import app as manoeuvre_app
+from dq_marine.cli.vehicles import app as vehicles_app
+
+app = typer.Typer(
+    cls=Commands,
+    name="dq-marine",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings=HELP_OPTIONS,
+)
+
+
+def _show_version(asked: bool) -> None:
+    if asked:
+        console.print(f"dq-marine {__version__}", highlight=False)
+        raise typer.Exit
+
+
+@app.callback(epilog="Start here:  [bold]dq-marine demo[/bold]")
+def main(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit."),
+    ] = False,
+) -> None:
+    """Marine vehicles on a dual quaternion variational integrator: fly, train, evaluate."""
+
+
+app.command(epilog=demo.EXAMPLES)(demo.demo)
+app.command(epilog=fly.EXAMPLES)(fly.fly)
+app.command(epilog=evaluate.EXAMPLES)(evaluate.evaluate)
+app.command(epilog=train.EXAMPLES)(train.train)
+app.command(epilog=tasks.EXAMPLES)(tasks.tasks)
+app.add_typer(vehicles_app, name="vehicles")
+app.add_typer(manoeuvre_app, name="manoeuvre")
+app.command(epilog=sea.EXAMPLES)(sea.sea)
+app.command(epilog=report.EXAMPLES)(report.report)
+app.command(epilog=add.EXAMPLES)(add.add)

@@ -1,0 +1,78 @@
+"""Options that `train`, `fly` and `evaluate` share."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from dq_marine.agents.settings import Settings
+
+
+class Algorithm(StrEnum):
+    """What `train --algorithm` takes."""
+
+    PPO = "ppo"
+    SAC = "sac"
+
+
+class Baseline(StrEnum):
+    """What `--agent` takes."""
+
+    CONTROLLER = "controller"
+    ZERO = "zero"
+    RANDOM = "random"
+
+
+TaskOption = Annotated[
+    str | None,
+    typer.Option(
+        "--task",
+        help="Id of the environment, as for gym.make; MODULE:ID imports a module first, which registers it.",
+        show_default="dq_marine/StationKeeping-v0, or the preset's or run's",
+    ),
+]
+VehicleOption = Annotated[
+    str | None,
+    typer.Option(
+        "--vehicle",
+        help="Catalogue name, or path of a TOML file.",
+        show_default="bluerov2_heavy, or the preset's or run's",
+    ),
+]
+CurrentOption = Annotated[
+    str | None,
+    typer.Option(
+        "--current",
+        help="Speed in m/s: every episode draws a horizontal current of up to it. Or three components in NED, "
+        "always the same: 0.2,-0.1,0.",
+        show_default="0.3, or the preset's or run's",
+    ),
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Any keyword of the environment; may be repeated. The value is TOML or JSON, a dot reaches into a table, "
+        "null takes the default. A wrong key is answered with the list of keys.",
+    ),
+]
+PrintPresetOption = Annotated[
+    bool,
+    typer.Option("--print-preset", help="Print the settings as TOML, which --preset reads, and exit."),
+]
+EnvironmentPresetOption = Annotated[
+    str | None,
+    typer.Option("--preset", help="Name of a preset, or path of a TOML file, whose environment is used."),
+]
+
+
+def print_preset(settings: Settings, table: str | None = None) -> None:
+    """Print settings as TOML, within a table if one is named."""
+    from dq_marine.util.toml_text import toml_text
+
+    content = settings.model_dump(mode="json")
+    typer.echo(toml_text(content if table is None else {table: content}), nl=False)

@@ -1,0 +1,129 @@
+"""What a task is, as tables: made from its definition, for the terminal and as Markdown for documents."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields
+from typing import NamedTuple, get_args
+
+from rich.table import Table
+
+from dq_marine.envs.core.definition import TaskDefinition
+from dq_marine.envs.core.registry import registered_tasks, task_named
+from dq_marine.physics.fields import Motion
+from dq_marine.task.protocol import never
+from dq_marine.vehicles import Vehicle, load_vehicle, vehicle_names
+
+AXES: tuple[str, ...] = get_args(Motion)
+UNITS = ("N",) * 3 + ("N m",) * 3
+"""Of a force and a moment."""
+
+
+class TextTable(NamedTuple):
+    """A table of texts."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: Sequence[tuple[str, ...]]
+
+    @property
+    def markdown(self) -> str:
+        """The table without its title, as Markdown."""
+        lines = [self.columns, ("---",) * len(self.columns), *self.rows]
+        return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+    @property
+    def shown(self) -> Table:
+        """The table for a terminal."""
+        table = Table(title=self.title, title_justify="left")
+        for number, column in enumerate(self.columns):
+            table.add_column(column, no_wrap=number == 0)
+        for row in self.rows:
+            table.add_row(*(cell.replace("`", "") for cell in row))
+        return table
+
+
+def short_name(definition: TaskDefinition) -> str:
+    """Return a task's id without its namespace and version."""
+    return definition.id.rpartition("/")[2].rpartition("-v")[0]
+
+
+def task_called(name: str) -> TaskDefinition:
+    """Return a task by its id or its short name.
+
+    Raises:
+        InvalidInputError: there is none.
+    """
+    return next((task for task in registered_tasks() if short_name(task) == name), None) or task_named(name)
+
+
+def task_table() -> TextTable:
+    """Return a table of all registered tasks."""
+    rows = [
+        (f"`{task.id}`", task.summary, ", ".join(f"`{name}`" for name in suiting_vehicles(task)))
+        for task in registered_tasks()
+    ]
+    return TextTable("tasks", ("id", "task", "vehicles that it suits"), rows)
+
+
+def suiting_vehicles(definition: TaskDefinition) -> tuple[str, ...]:
+    """Return the names of the catalogue's vehicles that a task can be done with."""
+    return tuple(name for name in vehicle_names() if definition.unsuitable(load_vehicle(name)) is None)
+
+
+def description(definition: TaskDefinition) -> tuple[TextTable, ...]:
+    """Return the tables of a task, with its default vehicle."""
+    vehicle = load_vehicle(definition.vehicle)
+    return (
+        action_table(vehicle),
+        observation_table(definition, vehicle),
+        reward_table(definition),
+        outcome_table(definition),
+        keyword_table(definition),
+    )
+
+
+def action_table(vehicle: Vehicle) -> TextTable:
+    """Return what the numbers of an action are: the actuated axes, each with its limit."""
+    axes = zip(AXES, UNITS, vehicle.wrench_limits.tolist(), strict=True)
+    rows = [(axis, unit, f"{limit:g}") for axis, unit, limit in axes if limit]
+    return TextTable("action", ("axis", "unit", "at 1"), rows)
+
+
+def observation_table(definition: TaskDefinition, vehicle: Vehicle) -> TextTable:
+    """Return what an observation consists of."""
+    settings = definition.checked_settings({}, vehicle)
+    rows = [
+        (f"`{one.name}`", str(one.size), one.unit or "1", _plain(one.bound), one.meaning)
+        for one in definition.observations(settings, vehicle)
+    ]
+    return TextTable("observation", ("name", "numbers", "unit", "bound", "meaning"), rows)
+
+
+def reward_table(definition: TaskDefinition) -> TextTable:
+    """Return the weights of the reward, and what else shapes it, with their defaults."""
+    rows = [(f"`{name}`", f"{value:g}") for name, value in definition.weights._asdict().items()]
+    return TextTable("reward", ("weight or width", "default"), rows)
+
+
+def outcome_table(definition: TaskDefinition) -> TextTable:
+    """Return the metrics, and what counts as success."""
+    rows = [
+        (f"`{name}`", definition.units.get(name) or "1", "metric, in `info`")
+        for name in definition.metric_names
+    ]
+    succeeded = definition.task.succeeded
+    success = "never" if succeeded is never else (succeeded.__doc__ or "").partition("\n")[0]
+    return TextTable("outcome", ("name", "unit", "meaning"), [*rows, ("`is_success`", "", success)])
+
+
+def keyword_table(definition: TaskDefinition) -> TextTable:
+    """Return the task's own keywords; it takes those of `dq_marine.Settings`, too."""
+    made = definition.settings()
+    rows = [(f"`{one.name}`", repr(getattr(made, one.name))) for one in fields(definition.settings)]
+    return TextTable("own keywords", ("keyword", "default"), rows)
+
+
+def _plain(number: float) -> str:
+    """Return a number with at most two decimals."""
+    return f"{number:.2f}".rstrip("0").rstrip(".")

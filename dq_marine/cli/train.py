@@ -1,0 +1,154 @@
+"""The command `dq-marine train`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from dq_marine.cli.common import console, examples
+from dq_marine.cli.options import (
+    Algorithm,
+    CurrentOption,
+    PrintPresetOption,
+    SetOption,
+    TaskOption,
+    VehicleOption,
+    print_preset,
+)
+from dq_marine.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    from dq_marine.agents.settings import TrainingSettings
+    from dq_marine.agents.training.run_folder import RunFolder
+
+EXAMPLES = examples(
+    "dq-marine train --run runs/ppo",
+    "dq-marine train --run runs/ppo --resume",
+    "dq-marine train --run runs/sac --algorithm sac --seed 1",
+    "dq-marine train --run runs/many --set randomise=default --set sensors=auv",
+    "dq-marine train --run runs/calm --set current=0.1 --set reward.effort=0.05",
+    "dq-marine train --print-preset --set actuation=thrusters > my_preset.toml",
+    "dq-marine train --run runs/mine --preset my_preset.toml --vehicle my_vehicle.toml",
+    "tensorboard --logdir runs",
+)
+
+
+def train(
+    run: Annotated[
+        Path | None,
+        typer.Option(
+            "--run", help="Folder for checkpoints, the best model and logs.", show_default="required"
+        ),
+    ] = None,
+    algorithm: Annotated[
+        Algorithm | None,
+        typer.Option(
+            "--algorithm",
+            help="Learning algorithm, with the preset of its name.",
+            show_default="ppo, or the preset's",
+        ),
+    ] = None,
+    preset: Annotated[
+        str | None,
+        typer.Option(
+            "--preset", help="Name of a preset, or path of a TOML file.", show_default="the algorithm's"
+        ),
+    ] = None,
+    timesteps: Annotated[
+        int | None,
+        typer.Option(
+            "--timesteps", min=1, help="Steps in all, also with --resume.", show_default="the preset's"
+        ),
+    ] = None,
+    envs: Annotated[
+        int | None,
+        typer.Option(
+            "--envs", min=1, help="Number of environments to learn from.", show_default="the preset's"
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option("--seed", min=0, help="Seed of networks, starts and currents.", show_default="0"),
+    ] = None,
+    task: TaskOption = None,
+    vehicle: VehicleOption = None,
+    current: CurrentOption = None,
+    set_: SetOption = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue from the run's latest checkpoint.")
+    ] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace the run in the folder.")] = False,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Open a page that follows one of the environments.")
+    ] = False,
+    only_print: PrintPresetOption = False,
+) -> None:
+    """Train an agent with PPO or SAC. A run that was interrupted can be resumed.
+
+    TensorBoard shows returns, what the learner reports, and of each episode the metrics at its end (episode_end/...),
+    and the sums of its reward terms (episode_reward/...); of evaluations the same (eval/...).
+    """
+    from dq_marine.agents.training.run_folder import RunFolder
+    from dq_marine.cli.agent_options import EnvironmentOptions, requested_training
+
+    if run is None and (resume or not only_print):
+        raise typer.BadParameter("name a folder for the run, as in --run runs/ppo", param_hint="--run")
+    options = EnvironmentOptions(task, vehicle, current, tuple(set_ or ()))
+    if resume:
+        _refuse_with_resume(
+            algorithm=algorithm, preset=preset, envs=envs, seed=seed, force=force, **options.given()
+        )
+        settings = None
+    else:
+        settings = requested_training(
+            options, algorithm=algorithm, preset=preset, timesteps=timesteps, envs=envs
+        )
+    if run is None or only_print:
+        print_preset(settings or RunFolder(run or "").read_plan().settings)
+        return
+    _train(RunFolder(run), settings, timesteps=timesteps, seed=seed or 0, force=force, watch=watch)
+
+
+def _train(
+    folder: RunFolder,
+    settings: TrainingSettings | None,
+    *,
+    timesteps: int | None,
+    seed: int,
+    force: bool,
+    watch: bool,
+) -> None:
+    """Train by settings, or without any go on; then say how it ended."""
+    # Only now, after a look at the options: it imports torch, which takes seconds.
+    from dq_marine.agents.training import training
+
+    try:
+        if settings is None:
+            summary = training.resume_training(folder, timesteps=timesteps, console=console, watch=watch)
+        else:
+            summary = training.begin_training(
+                folder, settings, seed=seed, force=force, console=console, watch=watch
+            )
+    except KeyboardInterrupt:
+        done = folder.progress("checkpoints").timesteps
+        console.print(
+            f"Stopped; {done:,} timesteps are saved. Go on: dq-marine train --run {folder.path} --resume",
+            soft_wrap=True,
+        )
+        raise typer.Exit(130) from None
+    console.print(training.summary_table(summary))
+    console.print(
+        f"Next: dq-marine evaluate --run {folder.path} --agent controller --agent zero", soft_wrap=True
+    )
+
+
+def _refuse_with_resume(**options: object) -> None:
+    """Refuse options that a resumed run cannot change."""
+    given = [f"--{name}" for name, value in options.items() if value is not None and value is not False]
+    if given:
+        raise InvalidInputError(
+            f"{', '.join(given)} cannot go with --resume: a run goes on as it was begun; leave it out, or train in "
+            "another folder"
+        )

@@ -1,1 +1,0 @@
-"""How the kernel is run: compiled for one body."""

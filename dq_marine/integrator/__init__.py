@@ -1,0 +1,1 @@
+"""One step: force-free drifts, damped kicks, and the methods that compose them. Plain functions on tuples."""

@@ -1,0 +1,26 @@
+"""What a kick needs to know of a damping matrix; `physics.damping` has the kinds that there are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from dq_marine.algebra.spatial import Spatial
+
+
+class DampingAlgebra(NamedTuple):
+    """The operations on one kind of damping matrix.
+
+    at(damping, twist) is D(chi); slope(damping, twist) is the derivative of D(chi) chi;
+    growth(damping, s, before, after) is s times what the diagonal of D gains between two twists;
+    apply(D, chi) is D chi;
+    add_scaled(m, s, D) is m + s D for a 6x6 m;
+    sandwich(D, m) is D m D.
+    """
+
+    at: Callable[..., Any]
+    slope: Callable[..., Any]
+    growth: Callable[..., Spatial]
+    apply: Callable[..., Any]
+    add_scaled: Callable[..., Any]
+    sandwich: Callable[..., Any]

@@ -1,0 +1,1 @@
+"""Thrusters, azimuths and fins."""

@@ -1,0 +1,1 @@
+"""Formulas of actuators, as plain functions on tuples."""

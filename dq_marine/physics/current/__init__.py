@@ -1,0 +1,1 @@
+"""Moving water: uniform, sheared over depth, and changing with time."""

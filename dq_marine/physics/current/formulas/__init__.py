@@ -1,0 +1,1 @@
+"""Formulas of current, as plain functions on tuples."""

@@ -1,0 +1,1 @@
+"""Linear, quadratic and coupled damping, and cross-flow drag."""

@@ -1,0 +1,1 @@
+"""Formulas of damping, as plain functions on tuples."""

@@ -1,0 +1,1 @@
+"""Formulas of hydrostatics, as plain functions on tuples."""

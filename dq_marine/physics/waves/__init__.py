@@ -1,0 +1,1 @@
+"""Seas: spectra, kinematics, and the forces of waves."""

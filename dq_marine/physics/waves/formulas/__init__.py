@@ -1,0 +1,1 @@
+"""Formulas of waves, as plain functions on tuples."""

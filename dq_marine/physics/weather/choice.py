@@ -1,0 +1,134 @@
+"""Turns what `weather=` takes into objects that make forces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, fields
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.errors import InvalidInputError
+from dq_marine.physics.term import ForceTerm
+from dq_marine.physics.waves.drift import SlowDrift
+from dq_marine.physics.waves.loads import WaveLoads
+from dq_marine.physics.waves.sea import Sea
+from dq_marine.physics.waves.spectra import Jonswap, ModifiedPiersonMoskowitz, PiersonMoskowitz
+from dq_marine.physics.wind.build import Wind, Windage
+
+if TYPE_CHECKING:
+    from dq_marine.vehicles import Vehicle
+
+SPECTRA = {
+    "jonswap": (Jonswap, ("height", "period", "gamma")),
+    "pierson_moskowitz": (PiersonMoskowitz, ("wind_speed",)),
+    "modified_pierson_moskowitz": (ModifiedPiersonMoskowitz, ("height", "mean_period")),
+}
+"""Class and arguments of each spectrum, by its name in dictionaries."""
+
+
+@runtime_checkable
+class Weather(Protocol):
+    """A sea, a wind or anything else that makes forces on a vehicle."""
+
+    @property
+    def changes(self) -> bool:
+        """Whether it changes with time: episodes then begin at a time that is drawn."""
+
+    def terms(self, vehicle: Vehicle, current_ned: NDArray[np.float64]) -> tuple[ForceTerm, ...]:
+        """Return the forces on a vehicle in a current [m/s], shape (3,)."""
+
+
+def weather_of(weather: Sequence[Any]) -> tuple[Weather, ...]:
+    """Return objects that make forces, from what `weather=` was given.
+
+    A `Sea` stands for its `WaveLoads`. A dictionary has a "kind" and the arguments of what it stands for:
+
+        {"kind": "sea", "spectrum": "jonswap", "height": 1.0, "period": 6.0, "direction": 0.5}
+        {"kind": "wind", "speed": 8.0, "direction_from": 3.0, "gusts": True}
+
+    A sea's spectrum is one of `SPECTRA`, with its own arguments; with "drift": True it has its slow drift, too. A
+    wind's windage is a dictionary of `Windage`'s arguments.
+
+    Raises:
+        InvalidInputError: there is something else.
+    """
+    if not isinstance(weather, Sequence) or isinstance(weather, str):
+        raise InvalidInputError(f"weather = {weather!r}; give a list, such as [Sea(...), Wind(...)]")
+    return tuple(made for part in weather for made in _made(part))
+
+
+def weather_terms(
+    weather: Sequence[Weather], vehicle: Vehicle, current_ned: NDArray[np.float64]
+) -> tuple[ForceTerm, ...]:
+    """Return the forces of all weather on a vehicle in a current [m/s], shape (3,)."""
+    return tuple(term for part in weather for term in part.terms(vehicle, current_ned))
+
+
+def _made(part: Any) -> tuple[Weather, ...]:
+    if isinstance(part, Mapping):
+        return _from_dictionary(dict(part))
+    if isinstance(part, Sea):
+        return (WaveLoads(part),)
+    if isinstance(part, Weather):
+        return (part,)
+    raise InvalidInputError(
+        f"weather has {part!r}; give Sea(...), WaveLoads(...), SlowDrift(...), Wind(...), or a dictionary with a kind"
+    )
+
+
+def _from_dictionary(arguments: dict[str, Any]) -> tuple[Weather, ...]:
+    given = dict(arguments)
+    kind = given.pop("kind", None)
+    try:
+        if kind == "wind":
+            windage = given.pop("windage", None)
+            hold = Windage(**windage) if isinstance(windage, Mapping) else windage
+            return (Wind(**given, windage=hold),)
+        if kind == "sea":
+            drift = given.pop("drift", False)
+            sea = _sea(given)
+            return (WaveLoads(sea), SlowDrift(sea)) if drift else (WaveLoads(sea),)
+    except TypeError as error:
+        raise InvalidInputError(f"weather has {arguments!r}: {error}") from error
+    raise InvalidInputError(f"weather has {arguments!r} of kind {kind!r}; give 'sea' or 'wind'")
+
+
+def _sea(given: dict[str, Any]) -> Sea:
+    name = given.pop("spectrum", "jonswap")
+    if name not in SPECTRA:
+        raise InvalidInputError(f"spectrum = {name!r} is unknown; give one of {list(SPECTRA)}")
+    make, names = SPECTRA[name]
+    own = {key: given.pop(key) for key in (*names, "gravity") if key in given}
+    return Sea(make(**own), **given)
+
+
+def plain_weather(weather: Sequence[Any]) -> list[dict[str, Any]]:
+    """Return weather as dictionaries of text and numbers, which `weather_of` takes.
+
+    Raises:
+        InvalidInputError: some of it is known by arrays, such as transfer functions, or is not of this package.
+    """
+    plain: list[dict[str, Any]] = []
+    for part in weather_of(weather):
+        if isinstance(part, Wind):
+            plain.append({"kind": "wind", **asdict(part)})
+        elif isinstance(part, WaveLoads) and not part.has_arrays:
+            plain.append(_plain_sea(part.sea))
+        elif (
+            isinstance(part, SlowDrift) and part.coefficients is None and plain[-1:] == [_plain_sea(part.sea)]
+        ):
+            plain[-1]["drift"] = True
+        else:
+            raise InvalidInputError(f"weather has {part!r}, which has no JSON; give it in Python")
+    return plain
+
+
+def _plain_sea(sea: Sea) -> dict[str, Any]:
+    own = {one.name: getattr(sea, one.name) for one in fields(sea) if one.name != "spectrum"}
+    names: dict[type[Any], str] = {kind: name for name, (kind, _) in SPECTRA.items()}
+    spectrum = sea.spectrum
+    if type(spectrum) not in names:
+        raise InvalidInputError(f"weather has {sea!r}, whose spectrum has no JSON; give it in Python")
+    return {"kind": "sea", "spectrum": names[type(spectrum)], **asdict(spectrum), **own}

@@ -1,0 +1,131 @@
+"""What all baselines share: how fast momentum changes, their step size, and how a call ends.
+
+The equations are those of docs/theory.md, "State and equations", with all forces explicit:
+
+    mu' = ad_chi^T mu + F(pose, chi, t),     chi = M^-1 mu                                          (Ri1)
+
+Momentum stands for velocity. M is constant, so every Runge-Kutta or Euler step on the one is that on the other, and
+momentum needs one product with M^-1 a step where velocity needs products with M^-1 and M. A uniform current is exact,
+as it is for the product's own steps: the position is that in the frame which drifts with the water
+(`physics.current.formulas.uniform`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
+
+from dq_marine.algebra.dual_quaternion import pose_from_parts
+from dq_marine.algebra.frames import momentum_bracket
+from dq_marine.algebra.quaternion import Quaternion
+from dq_marine.algebra.spatial import Spatial, spatial_add
+from dq_marine.algebra.vector3 import Vector3
+from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.forces import join_pose_forces, join_velocity_forces
+from dq_marine.integrator.inertia import twist_from_momentum
+from dq_marine.integrator.step import (
+    ACCEPTED,
+    Composition,
+    Progress,
+    StepOutcome,
+    StepParameters,
+    arrival,
+)
+from dq_marine.physics.current.formulas.uniform import (
+    MOVING_WATER,
+    STILL_WATER,
+    carry_nothing,
+    carry_with_current,
+)
+
+
+class StepSize(NamedTuple):
+    """All that a baseline needs to know of a step: its size [s]."""
+
+    h: float
+
+
+class Point(NamedTuple):
+    """Where a body is.
+
+    Attributes:
+        attitude: quaternion, body to NED.
+        position: of the body origin in the drifting frame [m].
+        momentum: relative to the water, in the body frame.
+    """
+
+    attitude: Quaternion
+    position: Vector3
+    momentum: Spatial
+
+
+Wrench: TypeAlias = Callable[[StepParameters, Point, Spatial, float, float, Spatial], Spatial]
+MomentumRate: TypeAlias = Callable[[StepParameters, Point, Spatial, float, float, Spatial], Spatial]
+CARRIES = {STILL_WATER: carry_nothing, MOVING_WATER: carry_with_current}
+"""(water's parameters, time [s], pose) -> pose displaced by the way of the water, for water that baselines take."""
+
+Land: TypeAlias = Callable[[StepParameters, BodyState, Point, int, int], StepOutcome]
+
+
+def make_wrench(composition: Composition) -> Wrench:
+    """Return (parameters, point, twist, start, elapsed, wrench) -> the sum of all forces, of the body frame.
+
+    `start` is the time of the call [s], at which the drifting frame was that of the world, `elapsed` the time since.
+    """
+    add_pose_forces = join_pose_forces(composition.pose_forces)
+    add_velocity_forces = join_velocity_forces(composition.velocity_forces)
+    carry = CARRIES[composition.water]
+
+    def total(
+        parameters: StepParameters,
+        point: Point,
+        twist: Spatial,
+        start: float,
+        elapsed: float,
+        wrench: Spatial,
+    ) -> Spatial:
+        pose = carry(parameters.water, elapsed, pose_from_parts(point.attitude, point.position))
+        posed = add_pose_forces(parameters.forces[0], pose, start + elapsed, wrench)
+        return add_velocity_forces(parameters.forces[1], pose, twist, start + elapsed, posed)
+
+    return total
+
+
+def make_momentum_rate(composition: Composition) -> MomentumRate:
+    """Return (parameters, point, twist, start, elapsed, wrench) -> mu' (Ri1); arguments as in `make_wrench`."""
+    total = make_wrench(composition)
+
+    def momentum_rate(
+        parameters: StepParameters,
+        point: Point,
+        twist: Spatial,
+        start: float,
+        elapsed: float,
+        wrench: Spatial,
+    ) -> Spatial:
+        force = total(parameters, point, twist, start, elapsed, wrench)
+        return spatial_add(momentum_bracket(twist, point.momentum), force)
+
+    return momentum_rate
+
+
+def twist_at(parameters: StepParameters, point: Point) -> Spatial:
+    """Return chi = M^-1 mu."""
+    return twist_from_momentum(parameters.inertia, point.momentum)
+
+
+def make_landing(composition: Composition) -> Land:
+    """Return (parameters, state, point, steps, iterations) -> the outcome of a call that began at `state`.
+
+    A baseline refuses nothing but what is not finite.
+    """
+    carry = CARRIES[composition.water]
+
+    def land(
+        parameters: StepParameters, state: BodyState, point: Point, steps: int, iterations: int
+    ) -> StepOutcome:
+        pose = pose_from_parts(point.attitude, point.position)
+        arrived = carry(parameters.water, steps * parameters.timing.h, pose)
+        return arrival(state, arrived, point.momentum, Progress(True, ACCEPTED, steps, iterations, 0, 0.0))
+
+    return land

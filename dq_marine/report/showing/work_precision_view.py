@@ -1,0 +1,254 @@
+"""What the study of error against cost shows."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import Any
+
+from dq_marine.report.cases import CASES
+from dq_marine.report.names import case_title, in_order, order_of, title_of
+from dq_marine.report.plan import Rows, distinct
+from dq_marine.report.presentation import (
+    Check,
+    Drawing,
+    Table,
+    duration,
+    factor,
+    listed,
+    number,
+    power,
+)
+from dq_marine.report.showing.axes import add_legend, add_slope_guides, make_logarithmic
+from dq_marine.report.showing.curves import (
+    BASELINE,
+    EVALUATIONS,
+    QUANTITIES,
+    TIME,
+    Curve,
+    best_own,
+    curves_of,
+)
+from dq_marine.report.showing.orders import order_checks, order_table
+from dq_marine.report.showing.overview import draw_overview
+from dq_marine.report.showing.rates import kind_of
+from dq_marine.util.figures import new_figure
+from dq_marine.util.plot_style import style_of
+
+TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)
+SHOWN_ERRORS = (1e-13, 30.0)
+COST_LABELS = {
+    TIME: "wall time per simulated second [s]",
+    EVALUATIONS: "force evaluations per simulated second",
+}
+SCALES = {TIME: 1e-9, EVALUATIONS: 1.0}
+NOT_REACHED = "-"
+USUAL_STEP = 0.02
+"""What simulators of marine vehicles take [s]."""
+
+
+def drawings(rows: Rows) -> list[Drawing]:
+    """Return an overview, and a figure a case: three errors against time, and against evaluations."""
+    all_curves = {case: curves_of(rows, case) for case in distinct(rows, "case")}
+    overview = Drawing(
+        "work-precision-overview",
+        f"The fastest DQVI and {title_of(BASELINE)}, by the error that is wanted",
+        "A line is drawn where both get there. Errors fall to the right.",
+        partial(draw_overview, all_curves),
+    )
+    figures = [
+        Drawing(f"work-precision-{case}", case_title(case), caption(case), partial(draw_case, curves))
+        for case, curves in all_curves.items()
+    ]
+    return [overview, *figures]
+
+
+def caption(case: str) -> str:
+    """Return how to read the figure of a case."""
+    note = f"{CASES[case].note} " if case in CASES else ""
+    return (
+        f"{note}Lower and further left is better. Grey: slopes 2, 4 and 6. Crosses along the upper edge: steps at "
+        "which a method failed."
+    )
+
+
+def draw_case(curves: dict[str, Curve]) -> Any:
+    """Return the figure of one case."""
+    figure = new_figure(12.0, 7.6)
+    panels = figure.subplots(2, 3, sharex="row", sharey="col")
+    for line, cost in zip(panels, COST_LABELS, strict=True):
+        for axes, (quantity, label) in zip(line, QUANTITIES.items(), strict=True):
+            draw_curves(axes, curves, quantity, cost)
+            axes.set_ylabel(label)
+            axes.set_xlabel(COST_LABELS[cost])
+    for axes in panels.flat:
+        add_slope_guides(axes, (2, 4, 6))
+    add_legend(figure, curves, {name: title_of(name) for name in curves}, columns=4)
+    return figure
+
+
+def draw_curves(axes: Any, curves: dict[str, Curve], quantity: str, cost: str) -> None:
+    """Draw all methods into one panel."""
+    make_logarithmic(axes)
+    low, high = SHOWN_ERRORS
+    for name, curve in curves.items():
+        pairs = zip(curve.costs(cost), curve.errors(quantity, cost), strict=True)
+        shown = [(SCALES[cost] * x, min(max(y, 2.0 * low), 0.7 * high)) for x, y in pairs if math.isfinite(y)]
+        if shown:
+            axes.plot(*zip(*shown, strict=True), **style_of(name).arguments())
+        failed = [SCALES[cost] * row[cost] for row in curve.failures if cost in row]
+        axes.plot(failed, [0.7 * high] * len(failed), "x", color=style_of(name).colour, markersize=5)
+    axes.set_ylim(low, high)
+
+
+def tables(rows: Rows) -> list[Table]:
+    """Return who wins where, the observed orders, and the times of every method on every case."""
+    all_curves = {case: curves_of(rows, case) for case in distinct(rows, "case")}
+    found = [ratio_table(all_curves, quantity) for quantity in ("attitude", "position")]
+    found += [order_table(all_curves), same_step_table(all_curves)]
+    for case, curves in all_curves.items():
+        found += [time_table(case, curves, quantity) for quantity in ("attitude", "position")]
+    return found
+
+
+def ratio_table(all_curves: dict[str, dict[str, Curve]], quantity: str) -> Table:
+    """Return the time of the best own method over that of RK4, by case and error."""
+    lines = []
+    for case, curves in all_curves.items():
+        lines.append([case_title(case), *(ratio_cell(curves, quantity, target) for target in TARGETS)])
+    return Table(
+        f"Time of the fastest DQVI over that of {title_of(BASELINE)}, by {QUANTITIES[quantity]}",
+        ["case", *(f"{power(target)}" for target in TARGETS)],
+        lines,
+        "Below 1, DQVI is faster. In brackets the order of the fastest. Read off between measured points.",
+    )
+
+
+def ratio_cell(curves: dict[str, Curve], quantity: str, target: float) -> str:
+    """Return one ratio, with the order of the own method that it is for."""
+    own = best_own(curves, quantity, target)
+    baseline = curves[BASELINE].cost_at(quantity, target) if BASELINE in curves else None
+    if own is None:
+        return "DQVI: not reached" if baseline is not None else NOT_REACHED
+    if baseline is None:
+        return f"RK4: not reached ({short(own[0])})"
+    return f"{factor(own[1] / baseline)} ({short(own[0])})"
+
+
+def short(name: str) -> str:
+    """Return a few letters for an own method."""
+    return name.removeprefix("dqvi").removeprefix("_") or name
+
+
+def same_step_table(all_curves: dict[str, dict[str, Curve]]) -> Table:
+    """Return the attitude errors with a step as simulators take it."""
+    names = in_order({name for curves in all_curves.values() for name in curves if order_of(name)})
+    lines = [
+        [title_of(name), *(same_step_cell(curves.get(name)) for curves in all_curves.values())]
+        for name in names
+    ]
+    return Table(
+        f"Attitude error [rad] with the step that is nearest to {USUAL_STEP:g} s",
+        ["method", *(case_title(case) for case in all_curves)],
+        lines,
+        "What a simulation with a fixed step gets, whatever it costs.",
+    )
+
+
+def same_step_cell(curve: Curve | None) -> str:
+    """Return the error of one method on one case."""
+    if curve is None:
+        return "cannot"
+    rows = [row for row in [*curve.points, *curve.failures] if "step" in row]
+    if not rows:
+        return ""
+    row = min(rows, key=lambda row: abs(math.log(row["step"] / USUAL_STEP)))
+    return (
+        number(row["attitude"]) if row.get("attitude") is not None else str(row["outcome"]).replace("_", " ")
+    )
+
+
+def time_table(case: str, curves: dict[str, Curve], quantity: str) -> Table:
+    """Return the time that each method needs for each error."""
+    lines = [
+        [title_of(name), *(time_cell(curve.cost_at(quantity, target)) for target in TARGETS)]
+        for name, curve in curves.items()
+    ]
+    return Table(
+        f"{case_title(case)}: time per simulated second for a given {QUANTITIES[quantity]}",
+        ["method", *(f"{power(target)}" for target in TARGETS)],
+        lines,
+        f"{NOT_REACHED}: not reached with the finest step tried.",
+    )
+
+
+def time_cell(nanoseconds: float | None) -> str:
+    """Return a time, or that there is none."""
+    return NOT_REACHED if nanoseconds is None else duration(nanoseconds * 1e-9)
+
+
+def findings(rows: Rows) -> list[str]:
+    """Return where DQVI wins and loses against RK4, in numbers."""
+    all_curves = {case: curves_of(rows, case) for case in distinct(rows, "case")}
+    found = [
+        (case, target, ratio(curves, target)) for case, curves in all_curves.items() for target in TARGETS
+    ]
+    known = [(case, target, value) for case, target, value in found if value is not None]
+    wins = [(case, target) for case, target, value in known if value < 1.0]
+    if not known:
+        return []
+    gist = (
+        f"Of {len(known)} pairs of case and attitude error that DQVI or {title_of(BASELINE)} reaches, the fastest DQVI "
+        f"needs less time in {len(wins)}, and more in {len(known) - len(wins)}."
+    )
+    sentences = [
+        gist,
+        *(sentence_of(kind, known) for kind in dict.fromkeys(kind_of(case) for case, _, _ in known)),
+    ]
+    if wins:
+        names = [
+            f"{case_title(case)} ({', '.join(f'{power(t)}' for c, t in wins if c == case)})"
+            for case, _ in wins
+        ]
+        sentences.append(f"DQVI is ahead of {title_of(BASELINE)} on {listed(list(dict.fromkeys(names)))}.")
+    return sentences
+
+
+def ratio(curves: dict[str, Curve], target: float) -> float | None:
+    """Return the time of the fastest DQVI over that of RK4 for an attitude error.
+
+    Zero where RK4 does not reach it, infinite where DQVI does not, None where neither does.
+    """
+    own = best_own(curves, "attitude", target)
+    baseline = curves[BASELINE].cost_at("attitude", target) if BASELINE in curves else None
+    if own is None:
+        return None if baseline is None else math.inf
+    return 0.0 if baseline is None else own[1] / baseline
+
+
+def sentence_of(kind: str, known: list[tuple[str, float, float]]) -> str:
+    """Return how DQVI and RK4 compare on one kind of motion."""
+    parts = []
+    for target in TARGETS:
+        values = [value for case, error, value in known if kind_of(case) == kind and error == target]
+        both = [value for value in values if 0.0 < value < math.inf]
+        text = (
+            f"{factor(geometric_mean(both))} at {power(target)} rad"
+            if both
+            else f"no common case at {power(target)} rad"
+        )
+        alone, lacking = values.count(0.0), values.count(math.inf)
+        text += f", where RK4 does not get in {alone} of {len(values)}" if alone else ""
+        text += f", where DQVI does not get in {lacking} of {len(values)}" if lacking else ""
+        parts.append(text)
+    return f"Time of the fastest DQVI over that of {title_of(BASELINE)}, {kind}: {'; '.join(parts)}."
+
+
+def geometric_mean(values: list[float]) -> float:
+    """Return the geometric mean."""
+    return math.exp(sum(math.log(value) for value in values) / len(values))
+
+
+def checks(rows: Rows) -> list[Check]:
+    """Return the observed orders, held against those that the methods are said to have."""
+    return order_checks({case: curves_of(rows, case) for case in distinct(rows, "case")})

@@ -1,0 +1,1 @@
+"""Scenes, and the bodies and batches of bodies that they make."""

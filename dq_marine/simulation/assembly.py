@@ -1,0 +1,165 @@
+"""Assembles the physics of a body: the functions that its step needs, and their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.errors import InvalidInputError
+from dq_marine.integrator.actuation import NO_ACTUATION
+from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
+from dq_marine.integrator.extrapolated import ExtrapolatedTiming, make_extrapolated
+from dq_marine.integrator.kick import Kick
+from dq_marine.integrator.midpoint_drift import midpoint_drift, midpoint_fallback
+from dq_marine.integrator.paper_drift import paper_drift, paper_fallback
+from dq_marine.integrator.richardson import RichardsonTiming, make_richardson
+from dq_marine.integrator.step import Advance, Composition, StepParameters
+from dq_marine.integrator.strang import make_strang
+from dq_marine.physics.actuators.build import ActuationTerm
+from dq_marine.physics.damping.build import DampingTerm
+from dq_marine.physics.matrices import inertia_term
+from dq_marine.physics.term import ForceTerm, WaterTerm, nested_parameters
+
+SCHEMES = {"midpoint": (midpoint_drift, midpoint_fallback), "paper": (paper_drift, paper_fallback)}
+"""Schemes by name: the drift, and its fallback."""
+
+ORDERS = (2, *STAGES)
+"""Orders that a method may have."""
+
+
+def check_method(scheme: str, order: int) -> None:
+    """Refuse what is no scheme or no order.
+
+    Raises:
+        InvalidInputError: with the reason.
+    """
+    if scheme not in SCHEMES:
+        raise InvalidInputError(f"scheme = {scheme!r} is unknown; give one of {sorted(SCHEMES)}")
+    if order not in ORDERS:
+        raise InvalidInputError(f"order = {order!r}; give one of {list(ORDERS)}")
+
+
+class Method(NamedTuple):
+    """The sequence of drifts and kicks of one order.
+
+    Attributes:
+        make: (composition) -> advance.
+        kick: damping, as the method wants it.
+        timing: (step size [s]) -> what the method needs to know of it.
+    """
+
+    make: Callable[[Composition], Advance]
+    kick: Kick
+    timing: Callable[[float], Any]
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """The physics of one body, without a step size yet.
+
+    Attributes:
+        mass_matrix: M in Fossen's order, symmetric positive definite, shape (6, 6).
+        forces: those that are present.
+        damping: may be zero.
+        water: still or moving.
+        scheme: one of `SCHEMES`.
+        order: one of `ORDERS`.
+        actuators: those that drive the body, if any.
+    """
+
+    mass_matrix: NDArray[np.float64]
+    forces: tuple[ForceTerm, ...]
+    damping: DampingTerm
+    water: WaterTerm
+    scheme: str = "midpoint"
+    order: int = 2
+    actuators: ActuationTerm | None = None
+
+    def __post_init__(self) -> None:
+        """Check the scheme and the order.
+
+        Raises:
+            InvalidInputError: with the reason.
+        """
+        check_method(self.scheme, self.order)
+        if self.order > 4 and self.dissipation:
+            raise InvalidInputError(
+                f"order = {self.order}, but there is {self.dissipation}: orders above 4 take negative stages, which "
+                "cannot undo it; give order 2 or 4, or leave it out"
+            )
+
+    @property
+    def terms(self) -> tuple[str, ...]:
+        """Names of what the step computes besides inertia and the control wrench."""
+        names = [*(force.name for force in self._present(0.0)), *self.damping.names, self.water.name]
+        return tuple(filter(None, names))
+
+    @property
+    def dissipation(self) -> str:
+        """Names of what takes energy, or may: damping and velocity forces; empty if nothing does."""
+        names = [*self.damping.names, *(force.name for force in self._velocity_forces(0.0))]
+        return ", ".join(filter(None, names))
+
+    @property
+    def composition(self) -> Composition:
+        """The functions of the step."""
+        drift, fallback = SCHEMES[self.scheme]
+        return Composition(
+            method=self._method.make,
+            pose_forces=tuple(force.compiled_form for force in self._pose_forces(0.0)),
+            velocity_forces=tuple(force.compiled_form for force in self._velocity_forces(0.0)),
+            kick=self._method.kick,
+            drift=drift,
+            fallback=fallback,
+            water=self.water.water,
+            actuation=NO_ACTUATION if self.actuators is None else self.actuators.actuation,
+        )
+
+    def parameters_at(self, step: float) -> StepParameters:
+        """Return the numbers of the step for a step size [s]."""
+        return StepParameters(
+            inertia=inertia_term(self.mass_matrix),
+            damping=self.damping.matrices,
+            forces=(
+                nested_parameters(self._pose_forces(step)),
+                nested_parameters(self._velocity_forces(step)),
+            ),
+            water=self.water.parameters,
+            timing=self._method.timing(step),
+        )
+
+    def _present(self, step: float) -> tuple[ForceTerm, ...]:
+        """Return all forces; the actuators' first, where `physics.actuators.formulas.stepping` finds it."""
+        return self.forces if self.actuators is None else (self.actuators.force_at(step), *self.forces)
+
+    def _pose_forces(self, step: float) -> tuple[ForceTerm, ...]:
+        return tuple(force for force in self._present(step) if not force.uses_velocity)
+
+    def _velocity_forces(self, step: float) -> tuple[ForceTerm, ...]:
+        return tuple(force for force in self._present(step) if force.uses_velocity)
+
+    @property
+    def _method(self) -> Method:
+        damping = self.damping
+        if self.order == 2:
+            return Method(make_strang, damping.kick, damping.timing)
+        if not self.dissipation:
+            stages = STAGES[self.order]
+            return Method(
+                make_composed, damping.kick, lambda h: ComposedTiming(tuple(h * stage for stage in stages))
+            )
+        if self._velocity_forces(0.0):
+            return Method(
+                make_extrapolated,
+                damping.kick,
+                lambda h: ExtrapolatedTiming(*(damping.timing(h / pieces) for pieces in (1, 2, 3))),
+            )
+        return Method(
+            make_richardson,
+            damping.accurate_kick,
+            lambda h: RichardsonTiming(*(damping.timing(h / pieces) for pieces in (1, 2))),
+        )

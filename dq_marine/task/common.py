@@ -1,0 +1,41 @@
+"""Formulas that several tasks share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from dq_marine.algebra.selection import select
+from dq_marine.algebra.vector3 import Vector3, bounded_vector
+from dq_marine.integrator.body import Motion
+from dq_marine.task.protocol import Situation
+
+SPEED_BOUND = 10.0
+"""Velocities are observed up to this [m/s, rad/s]."""
+
+
+def observed_velocity(measured: Motion) -> tuple[Vector3, Vector3]:
+    """Return linear and angular velocity over ground in the body frame [m/s, rad/s], within `SPEED_BOUND`."""
+    velocity = measured.velocity
+    return (bounded_vector(velocity.linear, SPEED_BOUND), bounded_vector(velocity.angular, SPEED_BOUND))
+
+
+def effort(weight: float, now: Situation) -> float:
+    """Return the reward's term for the mean square of the action, which is negative."""
+    return -(weight * now.action_squares / now.actions)
+
+
+def make_pick(count: int, first: int = 0) -> Callable[[float, Any], Any]:
+    """Return (number, tuple) -> the tuple's entry of about that number, held within 0 and `count` - 1."""
+
+    def pick_last(number: float, entries: Any) -> Any:
+        return entries[count - 1]
+
+    if first == count - 1:
+        return pick_last
+    rest = make_pick(count, first + 1)
+
+    def pick(number: float, entries: Any) -> Any:
+        return select(number < first + 0.5, entries[first], rest(number, entries))
+
+    return pick

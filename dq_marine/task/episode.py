@@ -1,0 +1,187 @@
+"""A task as an episode runs it: with the vehicle's limits, the weights of its reward, and sensors besides."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from dq_marine.algebra.selection import select, spread
+from dq_marine.integrator.body import Motion
+from dq_marine.task.protocol import Situation, Start, Task
+
+
+class EpisodeParameters(NamedTuple):
+    """All numbers that an episode's formulas take, the step's apart.
+
+    Attributes:
+        task: the task's own parameters.
+        weights: of the terms of its reward.
+        extra_weights: of the terms that were added to it.
+        wrench_limits: wrench at full action [N, N m], Fossen's order.
+        actions: how many numbers the agent's action has.
+        sensors: their numbers, nested in pairs; see `task.sensors.observing`.
+    """
+
+    task: Any
+    weights: Any
+    extra_weights: tuple[float, ...]
+    wrench_limits: tuple[float, float, float, float, float, float]
+    actions: float
+    sensors: Any
+
+
+class Report(NamedTuple):
+    """What is worth telling of the end of a control period.
+
+    Attributes:
+        metrics: what the task measures.
+        rewards: the terms of the reward, each with its weight: the task's own, and those that were added.
+        success: 1.0 where the task counts as done, else 0.0.
+    """
+
+    metrics: Any
+    rewards: Any
+    success: float
+
+
+class Verdict(NamedTuple):
+    """The reward of a control period, 1.0 if the episode ends with it, else 0.0, and what is told of it."""
+
+    reward: float
+    terminated: float
+    report: Report
+
+
+class Sensing(NamedTuple):
+    """What sensors do; both functions are (parameters, memory, motion, uniforms) -> memory.
+
+    Attributes:
+        first: what they read at an episode's start.
+        first_draws: how many uniform random numbers in [0, 1) that takes.
+        later: what they read at the end of a control period.
+        later_draws: how many that takes.
+    """
+
+    first: Callable[[Any, Any, Motion, Any], Any]
+    first_draws: int
+    later: Callable[[Any, Any, Motion, Any], Any]
+    later_draws: int
+
+
+def sense_nothing(parameters: EpisodeParameters, memory: Any, motion: Motion, uniforms: Any) -> Any:
+    """Return the memory: there are no sensors, the agent knows the motion as it is."""
+    return memory
+
+
+NO_SENSORS = Sensing(sense_nothing, 0, sense_nothing, 0)
+
+
+@dataclass(frozen=True)
+class EpisodeTask:
+    """The functions that an episode runs. Their parameters are `EpisodeParameters`.
+
+    Attributes:
+        draws: how many uniform random numbers in [0, 1) `start` and `initial_memory` take.
+        start: (parameters, uniforms) -> Start.
+        initial_memory: (parameters, start, uniforms) -> memory.
+        update_memory: (parameters, memory, motion, measured) -> memory.
+        observe: (parameters, memory, motion) -> nested tuples of numbers.
+        judge: (parameters, memory, motion, sum of the squares of the action) -> Verdict.
+        no_rewards: the terms of the reward, all zero.
+        sensing: what sensors do to the memory.
+    """
+
+    draws: int
+    start: Callable[[EpisodeParameters, tuple[float, ...]], Start]
+    initial_memory: Callable[[EpisodeParameters, Start, tuple[float, ...]], Any]
+    update_memory: Callable[[EpisodeParameters, Any, Motion, Motion], Any]
+    observe: Callable[[EpisodeParameters, Any, Motion], Any]
+    judge: Callable[[EpisodeParameters, Any, Motion, float], Verdict]
+    no_rewards: Any
+    sensing: Sensing = NO_SENSORS
+
+
+def no_sum(total: float, terms: Any) -> float:
+    """Return the total."""
+    return total
+
+
+def make_sum(count: int, first: int = 0) -> Callable[[float, Any], float]:
+    """Return (total, tuple) -> the total plus the tuple's numbers from `first` to `count`, added from the left."""
+    if first == count:
+        return no_sum
+    rest = make_sum(count, first + 1)
+
+    def add_terms(total: float, terms: Any) -> float:
+        return rest(total + terms[first], terms)
+
+    return add_terms
+
+
+def no_extras(weights: Any, situation: Situation) -> tuple[()]:
+    """Return the terms that were added to the reward: none."""
+    return ()
+
+
+def make_extras(functions: tuple[Callable[[Situation], float], ...]) -> Callable[[Any, Situation], Any]:
+    """Return (weights, situation) -> the terms that were added to the reward."""
+    if not functions:
+        return no_extras
+    first, rest = functions[0], make_extras(functions[1:])
+
+    def extras(weights: Any, situation: Situation) -> Any:
+        return (weights[0] * first(situation), *rest(weights[1:], situation))
+
+    return extras
+
+
+def make_total(own: int, extra: int) -> Callable[[Any, Any], float]:
+    """Return (terms of the task, terms added) -> the reward: their sum, added from the left."""
+    add_own, add_extra = make_sum(own, 1), make_sum(extra)
+
+    def total(terms: Any, extras: Any) -> float:
+        return add_extra(add_own(terms[0], terms), extras)
+
+    return total
+
+
+@functools.cache
+def episode_task(task: Task, extra_rewards: tuple[Callable[[Situation], float], ...] = ()) -> EpisodeTask:
+    """Return a task as an episode runs it; equal arguments give the same functions, which are compiled once.
+
+    Args:
+        task: with at least one term of reward.
+        extra_rewards: functions of terms that are added to its reward.
+    """
+    start_task, first_memory, next_memory = task.start, task.initial_memory, task.update_memory
+    observe_task, measure, reward = task.observe, task.measure, task.reward
+    ended, done = task.terminated, task.succeeded
+    extras, total = make_extras(extra_rewards), make_total(len(task.rewards._fields), len(extra_rewards))
+
+    def start(parameters: EpisodeParameters, uniforms: tuple[float, ...]) -> Start:
+        return start_task(parameters.task, uniforms)
+
+    def initial_memory(parameters: EpisodeParameters, begun: Start, uniforms: tuple[float, ...]) -> Any:
+        return first_memory(parameters.task, begun, uniforms)
+
+    def update_memory(parameters: EpisodeParameters, memory: Any, motion: Motion, measured: Motion) -> Any:
+        return next_memory(parameters.task, memory, motion, measured)
+
+    def observe(parameters: EpisodeParameters, memory: Any, motion: Motion) -> Any:
+        return observe_task(parameters.task, memory, motion)
+
+    def judge(parameters: EpisodeParameters, memory: Any, motion: Motion, action_squares: float) -> Verdict:
+        own = parameters.task
+        metrics = measure(own, memory, motion)
+        situation = Situation(motion, memory, metrics, action_squares, parameters.actions)
+        terms = reward(own, parameters.weights, situation)
+        added = extras(parameters.extra_weights, situation)
+        like = motion.position_ned[0]
+        success = select(done(own, situation), spread(1.0, like), spread(0.0, like))
+        terminated = select(ended(own, situation), spread(1.0, like), spread(0.0, like))
+        return Verdict(total(terms, added), terminated, Report(metrics, (terms, added), success))
+
+    none = (task.rewards(*(0.0,) * len(task.rewards._fields)), (0.0,) * len(extra_rewards))
+    return EpisodeTask(task.draws, start, initial_memory, update_memory, observe, judge, none)

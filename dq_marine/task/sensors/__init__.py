@@ -1,0 +1,1 @@
+"""What an agent is told by: sensors with noise, biases, rates and drop-outs."""

@@ -1,0 +1,1 @@
+"""Files written whole, optional libraries, and words to the user."""

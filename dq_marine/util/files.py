@@ -1,0 +1,103 @@
+"""Files and folders that are either complete or absent, whenever the process is killed."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from dq_marine.errors import InvalidInputError
+
+
+@contextmanager
+def replacing_file(path: Path) -> Iterator[Path]:
+    """Yield a temporary file beside `path` that takes its place once the block has ended well.
+
+    Raises:
+        InvalidInputError: the folder does not exist, or the file cannot be written.
+    """
+    temporary: Path | None = None
+    try:
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}.", suffix=path.suffix)
+        os.close(handle)
+        temporary = Path(name)
+        yield temporary
+        temporary.chmod(0o644)  # mkstemp's files are private; what is shared by name should be readable
+        os.replace(temporary, path)
+    except OSError as error:
+        raise InvalidInputError(
+            f"{path} cannot be written: {error.strerror or error}; "
+            "give a file in an existing folder that can be written"
+        ) from error
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
+
+
+@contextmanager
+def new_folder(path: Path) -> Iterator[Path]:
+    """Yield a temporary folder that becomes `path`, which must not exist, once the block has ended well."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = Path(tempfile.mkdtemp(dir=path.parent, prefix=".incomplete-"))
+    try:
+        yield temporary
+        temporary.chmod(0o755)
+        os.rename(temporary, path)
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
+def with_folder(path: Path) -> Path:
+    """Return the path of a file, once the folder it is to be in exists.
+
+    Raises:
+        InvalidInputError: the folder can be neither found nor made.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvalidInputError(
+            f"{path} cannot be written: {error.strerror}; give a folder that can be written"
+        ) from error
+    return path
+
+
+def write_whole(path: Path, content: str | bytes) -> None:
+    """Write a file, text as UTF-8.
+
+    Raises:
+        InvalidInputError: the folder does not exist, or the file cannot be written.
+    """
+    with replacing_file(path) as temporary:
+        temporary.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+def write_json(path: Path, content: Any, *, indent: int | None = 2) -> None:
+    """Write JSON. Numbers are written so that they are read back bit for bit.
+
+    Raises:
+        InvalidInputError: the folder does not exist, or the file cannot be written.
+    """
+    write_whole(path, json.dumps(content, indent=indent) + "\n")
+
+
+def write_csv(path: Path, rows: Iterable[dict[str, Any]]) -> None:
+    """Write rows as CSV, with a column for every entry that any of them has.
+
+    Raises:
+        InvalidInputError: the folder does not exist, or the file cannot be written.
+    """
+    listed = list(rows)
+    columns = list(dict.fromkeys(name for row in listed for name in row))
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns, restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(listed)
+    write_whole(path, text.getvalue())

@@ -1,0 +1,1 @@
+"""Checks that a vehicle is physically possible."""

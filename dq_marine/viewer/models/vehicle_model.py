@@ -1,0 +1,83 @@
+"""A vehicle to draw: its hull by kind, its thrusters one by one, and its ghost at the goal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from dq_marine.viewer.meshes import sphere
+from dq_marine.viewer.models import (
+    catamaran_model,
+    ellipsoid_model,
+    open_frame_model,
+    ship_model,
+    torpedo_model,
+)
+from dq_marine.viewer.models.thruster_model import thruster_model
+from dq_marine.viewer.snapshot import Shape, ShapeKind
+from dq_marine.viewer.transport.messages import Command, set_object
+from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface
+
+VEHICLE = "/world/vehicle"
+GOAL_GHOST = "/world/goal/ghost"
+GOAL_BALL = "/world/goal/ball"
+
+SOLID = Look()
+GLASS = Look(opacity=0.45, shininess=120.0)
+GHOST = Look(opacity=0.35, foggy=False)
+"""The murk of the water does not dim the goal, so that a far one can still be seen."""
+
+GHOST_GREEN = 0x5CFFA0
+BALL_RADIUS_IN_LENGTHS = 0.3
+
+HULLS: dict[ShapeKind, Callable[[Shape], dict[str, list[Painted]]]] = {
+    "open_frame": open_frame_model.open_frame_parts,
+    "torpedo": torpedo_model.torpedo_parts,
+    "ellipsoid": ellipsoid_model.ellipsoid_parts,
+    "catamaran": catamaran_model.catamaran_parts,
+    "ship": ship_model.ship_parts,
+}
+
+THRUSTER_RADII: dict[ShapeKind, Callable[[Shape], float]] = {
+    "open_frame": open_frame_model.thruster_radius,
+    "torpedo": torpedo_model.thruster_radius,
+    "ellipsoid": ellipsoid_model.thruster_radius,
+    "catamaran": catamaran_model.thruster_radius,
+    "ship": ship_model.thruster_radius,
+}
+
+
+def draw_vehicle(shape: Shape) -> list[Command]:
+    """Draw a vehicle, part by part, in body axes."""
+    parts = {**_hull_parts(shape), **_thrusters(shape)}
+    commands = [_draw(f"{VEHICLE}/{name}", painted, SOLID) for name, painted in parts.items()]
+    if shape.kind == "open_frame":
+        # Glass comes after what can be seen through it.
+        commands.append(_draw(f"{VEHICLE}/dome", open_frame_model.dome(shape), GLASS))
+    return commands
+
+
+def draw_goal(shape: Shape) -> list[Command]:
+    """Draw the hull as a green ghost, and a green ball for a goal without an attitude."""
+    hull = [painted for part in _hull_parts(shape).values() for painted in part]
+    ghost = [replace(painted, color=GHOST_GREEN) for painted in hull]
+    ball = [Painted(sphere(BALL_RADIUS_IN_LENGTHS * shape.length), GHOST_GREEN)]
+    return [_draw(GOAL_GHOST, ghost, GHOST), _draw(GOAL_BALL, ball, GHOST)]
+
+
+def _hull_parts(shape: Shape) -> dict[str, list[Painted]]:
+    """The solid parts of a vehicle but its thrusters, by name, such as `frame`."""
+    return HULLS[shape.kind](shape)
+
+
+def _thrusters(shape: Shape) -> dict[str, list[Painted]]:
+    """All thrusters of a vehicle, as `thrusters/0` and so on."""
+    radius = THRUSTER_RADII[shape.kind](shape)
+    return {
+        f"thrusters/{number}": thruster_model(thruster, radius)
+        for number, thruster in enumerate(shape.thrusters)
+    }
+
+
+def _draw(path: str, painted: list[Painted], look: Look) -> Command:
+    return set_object(path, painted_surface(path, painted, look))

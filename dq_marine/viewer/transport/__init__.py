@@ -1,0 +1,1 @@
+"""From Python to the browser: server, messages, pages."""

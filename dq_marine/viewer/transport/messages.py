@@ -1,0 +1,60 @@
+"""The commands of meshcat's protocol: small dictionaries, packed with MessagePack.
+
+Protocol: https://github.com/meshcat-dev/meshcat, section "API".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from dq_marine.viewer.libraries import drawing_library
+from dq_marine.viewer.placement import Placement
+from dq_marine.viewer.transport.three_json import Json
+
+
+@dataclass(frozen=True)
+class Command:
+    """One command to the page.
+
+    Attributes:
+        kind: what to do, such as `set_transform`.
+        path: the thing it is about, such as `/world/vehicle`.
+        content: the rest, as the protocol asks for this kind.
+    """
+
+    kind: str
+    path: str = ""
+    content: Json = field(default_factory=dict)
+
+    def packed(self) -> bytes:
+        """The command as the page reads it."""
+        message = {"type": self.kind, "path": self.path, **self.content}
+        packed: bytes = drawing_library("umsgpack").packb(message)
+        return packed
+
+
+CAPTURE_IMAGE = Command("capture_image")
+"""Ask for a picture of everything drawn so far."""
+
+
+def set_object(path: str, three_object: Json) -> Command:
+    """Draw a three.js object at `path`, in place of the one that was there."""
+    return Command("set_object", path, {"object": three_object})
+
+
+def set_transform(path: str, placement: Placement) -> Command:
+    """Move everything under `path`."""
+    return Command("set_transform", path, {"matrix": placement.matrix_by_columns()})
+
+
+def set_property(path: str, name: str, value: Any) -> Command:
+    """Set a property of the three.js object at `path`."""
+    return Command("set_property", path, {"property": name, "value": value})
+
+
+def set_animation(clips: Sequence[Json], *, play: bool) -> Command:
+    """Animate things, over and over; a clip is `{"path": ..., "clip": ...}` for each thing."""
+    options = {"play": play, "repetitions": float("inf")}
+    return Command("set_animation", "", {"animations": list(clips), "options": options})

@@ -1,0 +1,170 @@
+"""The viewer's server as seen by the process that draws: start it, send it commands, end it."""
+
+from __future__ import annotations
+
+import json
+import os
+import selectors
+import subprocess
+import sys
+import time
+import weakref
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from dq_marine.viewer.errors import ViewerError
+from dq_marine.viewer.libraries import drawing_library, meshcat_page_folder
+from dq_marine.viewer.transport.messages import CAPTURE_IMAGE, Command
+
+START_TIMEOUT = 30.0
+REPLY_TIMEOUT = 10.0
+STOP_TIMEOUT = 2.0
+"""Seconds to wait for the server's start, for its answer to a command, and for its orderly end."""
+
+POLL_SECONDS = 0.2
+"""How often a long wait looks whether it has become hopeless."""
+
+
+class ServerProcess:
+    """One server of its own, with a connection to it.
+
+    Attributes:
+        web_url: address of the live page.
+    """
+
+    def __init__(self) -> None:
+        """Start the server.
+
+        Raises:
+            MissingDependencyError: meshcat, pyzmq or another library of the viewer is not installed.
+            ViewerError: the server did not start.
+        """
+        meshcat_page_folder()
+        for name in ("umsgpack", "tornado"):
+            drawing_library(name)
+        self._zmq = drawing_library("zmq")
+        self._process = _start()
+        self._stop = weakref.finalize(self, _stop, self._process, os.getpid())
+        try:
+            addresses = _read_addresses(self._process)
+        except ViewerError:
+            self._stop()
+            raise
+        self.web_url: str = addresses["web"]
+        self._socket = _connected(self._zmq, addresses["zmq"])
+        # Dropped or forgotten, a viewer still ends its server and its connection.
+        weakref.finalize(self, self._socket.close, 0)
+
+    @property
+    def pid(self) -> int:
+        """Process number of the server."""
+        return self._process.pid
+
+    def send(self, command: Command) -> None:
+        """Have a command carried out by all connected pages, and by those that connect later.
+
+        Raises:
+            ViewerError: the server is closed or does not answer.
+        """
+        answer = self._request(command, REPLY_TIMEOUT)
+        if answer != b"ok":
+            raise ViewerError(f"the viewer's server refused {command.kind!r}: {answer!r}")
+
+    def capture(self, timeout: float, check: Callable[[], None]) -> bytes:
+        """A picture of what the connected page shows after all commands sent so far.
+
+        Args:
+            timeout: longest wait for the page and its picture [s].
+            check: called during the wait; raises when there is no hope left.
+
+        Returns:
+            A PNG file.
+
+        Raises:
+            ViewerError: no picture came in time.
+        """
+        return self._request(CAPTURE_IMAGE, timeout, check)
+
+    def close(self) -> None:
+        """End the server and wait for its end. May be called again."""
+        self._socket.close(linger=0)
+        self._stop()
+
+    def _request(self, command: Command, timeout: float, check: Callable[[], None] = lambda: None) -> bytes:
+        if self._socket.closed:
+            raise ViewerError("the viewer is closed; open a new one")
+        kind, path = command.kind.encode(), command.path.encode()
+        self._socket.send_multipart([kind, path, command.packed()])
+        deadline = time.monotonic() + timeout
+        while not self._socket.poll(1000 * POLL_SECONDS):
+            check()
+            if self._process.poll() is not None:
+                self.close()
+                raise ViewerError("the viewer's server has ended; open a new viewer")
+            if time.monotonic() > deadline:
+                self.close()
+                raise ViewerError(
+                    f"no answer to {command.kind!r} within {timeout:g} s; the viewer is closed: "
+                    "open a new one, on a computer less busy"
+                )
+        answer: bytes = self._socket.recv()
+        return answer
+
+
+def _start() -> subprocess.Popen[bytes]:
+    """Start the server's process with pipes to it, away from the terminal's signals."""
+    # -P keeps the current folder, whatever lies in it, off the server's module path.
+    package_root = str(Path(__file__).parents[3])
+    search_path = [package_root, *filter(None, [os.environ.get("PYTHONPATH")])]
+    return subprocess.Popen(
+        [sys.executable, "-P", "-W", "ignore", "-m", "dq_marine.viewer.transport.server"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(search_path)},
+        start_new_session=True,
+    )
+
+
+def _read_addresses(process: subprocess.Popen[bytes]) -> dict[str, str]:
+    """The server's first line, which gives its two addresses."""
+    line = b""
+    with selectors.DefaultSelector() as selector:
+        selector.register(process.stdout, selectors.EVENT_READ)  # type: ignore[arg-type]
+        if selector.select(START_TIMEOUT):
+            line = process.stdout.readline()  # type: ignore[union-attr]
+    if not line:
+        raise ViewerError(
+            f"the viewer's server did not start within {START_TIMEOUT:g} s; to see why, run: "
+            "python -m dq_marine.viewer.transport.server"
+        )
+    addresses: dict[str, str] = json.loads(line)
+    return addresses
+
+
+def _connected(zmq: Any, url: str) -> Any:
+    """A request socket to the server."""
+    socket = zmq.Context.instance().socket(zmq.REQ)
+    socket.linger = 0
+    # A request whose wait was interrupted, as by Ctrl-C, must not spoil the next one.
+    socket.req_relaxed = True
+    socket.req_correlate = True
+    socket.connect(url)
+    return socket
+
+
+def _stop(process: subprocess.Popen[bytes], owner: int) -> None:
+    """End the server's process and wait for it."""
+    # A forked child inherits the viewer object, but the server stays its parent's.
+    if os.getpid() != owner:
+        return
+    for pipe in (process.stdin, process.stdout):
+        if pipe is not None:
+            pipe.close()
+    process.terminate()
+    try:
+        process.wait(timeout=STOP_TIMEOUT)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()

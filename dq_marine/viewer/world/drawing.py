@@ -1,0 +1,178 @@
+"""The whole picture: which things are drawn, and where each stands at a snapshot.
+
+Everything hangs under `/world`, whose frame is NED:
+
+| path | what |
+|---|---|
+| `/world/vehicle/...` | the vehicle, part by part |
+| `/world/goal/ghost`, `/world/goal/ball` | the pose to reach; a ball where any attitude will do |
+| `/world/thrust`, `/world/current/...` | arrows of the applied force and of the water's motion |
+| `/world/trail` | past positions |
+| `/world/floor/...`, `/world/surface`, `/world/specks`, `/world/shadow` | the sea |
+| `/world/clock` | nothing to see: its x is the simulated time [s], which the page displays |
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from dq_marine.errors import InvalidInputError
+from dq_marine.viewer.models.vehicle_model import (
+    GOAL_BALL,
+    GOAL_GHOST,
+    VEHICLE,
+    draw_goal,
+    draw_vehicle,
+)
+from dq_marine.viewer.placement import (
+    Placement,
+    Quaternion,
+    hidden_at,
+    quaternion_wxyz,
+    vector3,
+)
+from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
+from dq_marine.viewer.transport.messages import Command
+from dq_marine.viewer.world.arrows import (
+    THRUST,
+    current_placements,
+    draw_arrows,
+    thrust_placement,
+)
+from dq_marine.viewer.world.camera import LEASH_IN_LENGTHS, LeashedView, place_camera
+from dq_marine.viewer.world.sea import (
+    FLOOR,
+    SHADOW,
+    SPECKS,
+    SURFACE,
+    SeaScale,
+    draw_floor,
+    draw_shadow,
+    draw_specks,
+    draw_surface,
+    nearest_period,
+)
+from dq_marine.viewer.world.water import draw_water, surroundings_of
+
+WORLD = "/world"
+CLOCK = "/world/clock"
+
+JUMPING_PATHS = frozenset({FLOOR, SURFACE, SPECKS, GOAL_GHOST, GOAL_BALL})
+"""Things that may jump, by whole periods or to a new goal: they must not be seen on their way."""
+
+CLEARANCE_IN_LENGTHS = 3.0
+"""Water below the deepest point where no depth of the floor is given, in vehicle lengths."""
+
+NED_TO_Z_UP: Quaternion = (0.0, 1.0, 0.0, 0.0)
+"""Half a turn about x: meshcat's own frame has z up."""
+
+
+class Drawing:
+    """Turns snapshots into placements of the things in the scene."""
+
+    def __init__(self, shape: Shape, floor_depth: float | None = None) -> None:
+        """Draw nothing yet.
+
+        Args:
+            shape: the vehicle.
+            floor_depth: depth of the sea floor [m], or None for one below vehicle and goal.
+        """
+        self._shape = shape
+        self._scale = SeaScale.of(shape)
+        self._view = LeashedView(LEASH_IN_LENGTHS * shape.length)
+        self._given_floor_depth = floor_depth
+        self._floor_depth: float | None = None
+
+    def restart(self) -> None:
+        """Forget the previous episode."""
+        self._view.restart()
+        self._floor_depth = None
+
+    def scenery(self, first: Snapshot) -> list[Command]:
+        """Everything there is to draw, before it is placed; sent once."""
+        scale, surroundings = self._scale, surroundings_of(self._shape)
+        return [
+            *draw_water(surroundings, scale.sight),
+            *draw_floor(scale),
+            *draw_surface(scale, surroundings),
+            *(draw_specks(scale) if surroundings.specks else ()),
+            *draw_shadow(self._shape),
+            *draw_vehicle(self._shape),
+            *draw_goal(self._shape),
+            *draw_arrows(),
+            *place_camera(first, self._shape, scale.sight),
+        ]
+
+    def placements(self, snapshot: Snapshot) -> dict[str, Placement]:
+        """Where everything that can move stands at a snapshot, by path."""
+        position = snapshot.position_ned
+        anchor = self._view.follow(position)
+        north, east, down = vector3(anchor)
+        pose = Placement(vector3(position), quaternion_wxyz(snapshot.quaternion_body_to_ned))
+        return {
+            WORLD: Placement((-north, east, down), NED_TO_Z_UP),
+            VEHICLE: pose,
+            THRUST: thrust_placement(snapshot, self._shape, pose.rotation_matrix()),
+            CLOCK: Placement((snapshot.time, 0.0, 0.0)),
+            **_goal_placements(snapshot),
+            **current_placements(snapshot, self._shape),
+            **self._sea_placements(snapshot, anchor),
+        }
+
+    def _sea_placements(self, snapshot: Snapshot, anchor: FloatArray) -> dict[str, Placement]:
+        period, block = self._scale.period, self._scale.speck_block
+        north, east = (nearest_period(float(value), period) for value in anchor[:2])
+        specks_at = vector3([nearest_period(float(value), block) for value in anchor])
+        floor_depth = self._floor_depth_at(snapshot)
+        at_surface = (north, east, 0.0)
+        x, y, z = vector3(snapshot.position_ned)
+        just_above_floor = (x, y, floor_depth - 0.02 * self._shape.height)
+        return {
+            FLOOR: Placement((north, east, floor_depth)),
+            SURFACE: Placement(at_surface) if z < self._scale.sight else hidden_at(at_surface),
+            SPECKS: Placement(specks_at),
+            SHADOW: Placement(just_above_floor) if z < floor_depth else hidden_at(just_above_floor),
+        }
+
+    def _floor_depth_at(self, snapshot: Snapshot) -> float:
+        """The depth asked for; or one some way below start and goal, deepened if need be."""
+        if self._given_floor_depth is not None:
+            return self._given_floor_depth
+        if self._floor_depth is None:
+            self._floor_depth = floor_below([snapshot], self._shape)
+        deepest_keel = float(snapshot.position_ned[2]) + self._shape.length
+        self._floor_depth = max(self._floor_depth, deepest_keel)
+        return self._floor_depth
+
+
+def floor_below(snapshots: Sequence[Snapshot], shape: Shape) -> float:
+    """A depth for the sea floor [m], some way below everything the snapshots tell of."""
+    places = [snapshot.position_ned for snapshot in snapshots]
+    places += [s.goal_position_ned for s in snapshots if s.goal_position_ned is not None]
+    deepest = max(float(place[2]) for place in places)
+    return max(deepest, 0.0) + CLEARANCE_IN_LENGTHS * shape.size
+
+
+def checked_floor_depth(depth: float | None) -> float | None:
+    """The depth of the sea floor [m] as given, if it is None or makes sense.
+
+    Raises:
+        InvalidInputError: it is not a finite number above 0.
+    """
+    if depth is not None and not (math.isfinite(depth) and depth > 0.0):
+        raise InvalidInputError(
+            f"floor_depth is {depth}; give a finite depth above 0 m, or None for one that suits"
+        )
+    return depth
+
+
+def _goal_placements(snapshot: Snapshot) -> dict[str, Placement]:
+    position, attitude = snapshot.goal_position_ned, snapshot.goal_quaternion_body_to_ned
+    nowhere = hidden_at(vector3(snapshot.position_ned))
+    if position is None:
+        return {GOAL_GHOST: nowhere, GOAL_BALL: nowhere}
+    place = vector3(position)
+    if attitude is None:
+        return {GOAL_GHOST: nowhere, GOAL_BALL: Placement(place)}
+    return {GOAL_GHOST: Placement(place, quaternion_wxyz(attitude)), GOAL_BALL: nowhere}

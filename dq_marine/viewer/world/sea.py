@@ -1,0 +1,154 @@
+"""What bounds the water: the sandy floor, the surface, specks in between, the vehicle's shadow.
+
+Floor, surface and specks repeat themselves, so that a patch of them can follow the vehicle in whole
+periods and seem endless.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from dq_marine.viewer.meshes import Mesh, flat_polygon, grid_triangles, joined
+from dq_marine.viewer.snapshot import FloatArray, Shape
+from dq_marine.viewer.transport.messages import Command, set_object
+from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface, point_cloud, rgb, surface
+from dq_marine.viewer.world.water import Surroundings
+
+FLOOR = "/world/floor"
+SURFACE = "/world/surface"
+SPECKS = "/world/specks"
+SHADOW = "/world/shadow"
+
+SAND = 0xA79D78
+GRID = 0x857C60
+SPECK = 0xD8F4FF
+BLACK = 0x000000
+
+SAND_LOOK = Look(lit=False, both_sides=True)
+SHADOW_LOOK = Look(opacity=0.25, lit=False, both_sides=True)
+
+CELLS_PER_PERIOD = 10
+CELLS_PER_STRONG_LINE = 5
+PERIODS_EACH_WAY = 3
+DIVISIONS_PER_PERIOD = 6
+SPECKS_PER_BLOCK = 60
+
+
+@dataclass(frozen=True)
+class SeaScale:
+    """Sizes of the surroundings, in proportion to the vehicle.
+
+    Attributes:
+        cell: edge of a cell of the grid on the floor [m].
+        speck_block: edge of the cube of water that repeats itself, specks and all [m].
+    """
+
+    cell: float
+    speck_block: float
+
+    @classmethod
+    def of(cls, shape: Shape) -> SeaScale:
+        """The surroundings that suit a vehicle."""
+        return cls(cell=_round_length(shape.size), speck_block=8.0 * shape.size)
+
+    @property
+    def period(self) -> float:
+        """Distance [m] after which floor and surface look the same again."""
+        return CELLS_PER_PERIOD * self.cell
+
+    @property
+    def half_sheet(self) -> float:
+        """Half the edge of the patch of floor and surface around the vehicle [m]."""
+        return PERIODS_EACH_WAY * self.period
+
+    @property
+    def sight(self) -> float:
+        """Distance at which things vanish in the murk [m]: before the patch comes to its end."""
+        return 0.8 * self.half_sheet
+
+
+def draw_floor(scale: SeaScale) -> list[Command]:
+    """A level, sandy sea floor with a grid, to be placed at its depth."""
+    sand, grid = f"{FLOOR}/sand", f"{FLOOR}/grid"
+    sheet = _sheet(scale)
+    colors = rgb(SAND) * _mottle(sheet, scale.period, depth=0.06)
+    # The page writes the size of a cell next to the clock.
+    sand_json = surface(sand, sheet, colors, SAND_LOOK, {"cell": scale.cell})
+    grid_json = painted_surface(grid, [Painted(_grid(scale), GRID)], SAND_LOOK)
+    return [set_object(sand, sand_json), set_object(grid, grid_json)]
+
+
+def draw_surface(scale: SeaScale, water: Surroundings) -> list[Command]:
+    """The water's surface, to be placed at depth zero."""
+    sheet, look = _sheet(scale), Look(opacity=water.surface_opacity, lit=False, both_sides=True)
+    colors = rgb(water.surface) * _mottle(sheet, scale.period, water.surface_patches)
+    drawn = surface(SURFACE, sheet, colors, look)
+    if water.surface_opacity > 0.5:  # before other things that can be seen through, which it must not cover
+        drawn["object"]["renderOrder"] = -1
+    return [set_object(SURFACE, drawn)]
+
+
+def draw_shadow(shape: Shape) -> list[Command]:
+    """A dim spot on the floor below the vehicle: it shows how high above the floor that is."""
+    around = np.linspace(0.0, 2 * np.pi, 33)[:-1]
+    radius = 0.45 * max(shape.length, shape.width)
+    rim = np.column_stack([np.cos(around), np.sin(around), np.zeros(len(around))])
+    spot = Painted(flat_polygon(radius * rim), BLACK)
+    return [set_object(SHADOW, painted_surface(SHADOW, [spot], SHADOW_LOOK))]
+
+
+def draw_specks(scale: SeaScale) -> list[Command]:
+    """Specks that hang in the water: they show motion where nothing else is near."""
+    block = np.random.default_rng(seed=1).uniform(0.0, 1.0, (SPECKS_PER_BLOCK, 3))
+    corners = np.array(np.meshgrid(*[(-1.0, 0.0)] * 3)).reshape(3, -1).T
+    places = scale.speck_block * (block[None, :, :] + corners[:, None, :]).reshape(-1, 3)
+    return [set_object(SPECKS, point_cloud(SPECKS, places, SPECK, 0.002 * scale.speck_block))]
+
+
+def nearest_period(coordinate: float, period: float) -> float:
+    """The multiple of `period` [m] that is nearest to a coordinate [m]."""
+    return period * round(coordinate / period)
+
+
+def _round_length(least: float) -> float:
+    """The smallest of 1, 2, 5 times a power of ten that is not below `least` [m]."""
+    decade = 10.0 ** math.floor(math.log10(least))
+    return next(step * decade for step in (1.0, 2.0, 5.0, 10.0) if step * decade >= least)
+
+
+def _sheet(scale: SeaScale) -> Mesh:
+    """A level square in the xy plane around the origin; its normals point up, along -z."""
+    points = 2 * PERIODS_EACH_WAY * DIVISIONS_PER_PERIOD + 1
+    ticks = np.linspace(-scale.half_sheet, scale.half_sheet, points)
+    x, y = (axis.ravel() for axis in np.meshgrid(ticks, ticks))
+    vertices = np.column_stack([x, y, np.zeros_like(x)])
+    normals = np.tile([0.0, 0.0, -1.0], (len(vertices), 1))
+    return Mesh(vertices, normals, grid_triangles(points, points))
+
+
+def _mottle(sheet: Mesh, period: float, depth: float) -> FloatArray:
+    """Light and dark patches around 1, shape (n, 1), that repeat after `period` [m] in x and in y."""
+    u, v = 2 * np.pi * sheet.vertices[:, :2].T / period
+    patches = np.sin(2 * u + v) + np.sin(2 * v - u + 1.0) + np.sin(u - v) + np.sin(v + 2.0)
+    bright: FloatArray = 1.0 + depth * patches[:, None]
+    return bright
+
+
+def _grid(scale: SeaScale) -> Mesh:
+    """Lines as narrow strips just above the sand; every fifth is wider."""
+    half, cell = scale.half_sheet, scale.cell
+    strips = []
+    for number in range(-round(half / cell), round(half / cell) + 1):
+        width = cell * (0.05 if number % CELLS_PER_STRONG_LINE == 0 else 0.02)
+        near, far = number * cell - width / 2, number * cell + width / 2
+        strips.append([(near, -half), (far, -half), (far, half), (near, half)])
+        strips.append([(-half, near), (half, near), (half, far), (-half, far)])
+    return joined([flat_polygon(_level(strip, -0.01 * cell)) for strip in strips])
+
+
+def _level(corners: list[tuple[float, float]], z: float) -> FloatArray:
+    """Corners (x, y) [m] at the same z, shape (n, 3)."""
+    return np.column_stack([np.array(corners), np.full(len(corners), z)])

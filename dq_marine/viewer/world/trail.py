@@ -1,0 +1,50 @@
+"""The line of past positions behind the vehicle."""
+
+from __future__ import annotations
+
+from collections import deque
+
+import numpy as np
+
+from dq_marine.viewer.snapshot import FloatArray
+from dq_marine.viewer.transport.messages import Command, set_object
+from dq_marine.viewer.transport.three_json import polyline
+
+TRAIL = "/world/trail"
+TRAIL_YELLOW = 0xFFE66D
+
+LONGEST = 2000
+"""Positions that are remembered; the oldest are forgotten first."""
+
+
+class Trail:
+    """A bounded memory of where the vehicle was."""
+
+    def __init__(self, spacing: float) -> None:
+        """Start empty.
+
+        Args:
+            spacing: a position closer than this to the last one [m] is not remembered.
+        """
+        self._spacing = spacing
+        self._positions: deque[FloatArray] = deque(maxlen=LONGEST)
+
+    def restart(self) -> None:
+        """Forget everything."""
+        self._positions.clear()
+
+    def extend(self, position_ned: FloatArray) -> bool:
+        """Remember a position [m]; False if it was too close to the last one."""
+        if self._positions and np.linalg.norm(position_ned - self._positions[-1]) < self._spacing:
+            return False
+        self._positions.append(position_ned)
+        return True
+
+    def command(self) -> Command:
+        """Draw the trail as it is now."""
+        return draw_trail(np.array(self._positions))
+
+
+def draw_trail(positions_ned: FloatArray) -> Command:
+    """Draw a line through positions, shape (n, 3) [m]."""
+    return set_object(TRAIL, polyline(TRAIL, positions_ned, TRAIL_YELLOW))

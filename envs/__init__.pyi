@@ -1,0 +1,14 @@
+"""The public names of dq_marine.envs. Each line makes a name public; `dq_marine.util.lazy_names` reads them here."""
+
+from dq_marine.envs.core.definition import EpisodeContext as EpisodeContext
+from dq_marine.envs.core.definition import Goal as Goal
+from dq_marine.envs.core.definition import Observed as Observed
+from dq_marine.envs.core.definition import TaskDefinition as TaskDefinition
+from dq_marine.envs.core.marine_env import MarineEnv as MarineEnv
+from dq_marine.envs.core.module_task import define_task as define_task
+from dq_marine.envs.core.registry import register_task as register_task
+from dq_marine.envs.core.registry import registered_tasks as registered_tasks
+from dq_marine.envs.core.registry import task_named as task_named
+from dq_marine.envs.core.registry import tasks_suiting as tasks_suiting
+from dq_marine.envs.registration import register_environments as register_environments
+from dq_marine.envs.vector.vector_env import MarineVectorEnv as MarineVectorEnv

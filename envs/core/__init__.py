@@ -1,0 +1,1 @@
+"""What every environment of one vehicle shares."""

@@ -1,0 +1,271 @@
+"""What an environment is made of: a task, what is simulated, and their formulas joined and compiled."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.backend.control_period import compiled_control_period
+from dq_marine.backend.packing import structure_type
+from dq_marine.checks import finite_number
+from dq_marine.envs.core.action_mapping import action_mapping_of
+from dq_marine.envs.core.currents import check_current
+from dq_marine.envs.core.definition import EpisodeContext, Observed, TaskDefinition
+from dq_marine.envs.core.registry import arrived, task_named, tasks_suiting, travelling
+from dq_marine.envs.core.rewards import checked_extra_rewards
+from dq_marine.envs.core.start import at_origin, checked_options
+from dq_marine.envs.core.vehicle_pool import prepared_pool, wrench_limits_of
+from dq_marine.errors import InvalidInputError, UnsuitableVehicleWarning
+from dq_marine.integrator.step import StepParameters, make_motion
+from dq_marine.physics.current.build import draw_of
+from dq_marine.simulation.settings import Settings, VehicleLike
+from dq_marine.task.episode import EpisodeParameters, episode_task
+from dq_marine.task.period import draws_of_period
+from dq_marine.task.protocol import RewardTerm
+from dq_marine.task.sensors.build import nested_numbers, shown_numbers
+from dq_marine.task.sensors.observing import with_sensors
+from dq_marine.task.start import Drawn
+from dq_marine.vehicles import Vehicle
+
+SETTINGS = frozenset(one.name for one in fields(Settings))
+
+
+class ComposedTask:
+    """A task joined with a vehicle, its surroundings, sensors and what drives it. `MarineEnv` runs it.
+
+    The keywords of the task are attributes, too; what is set there holds from the next episode on.
+
+    Attributes:
+        definition: of the task.
+        settings: what is simulated.
+        task_settings: the task's own keywords.
+        reward_weights: of its reward.
+        extra_rewards: terms that were added to it.
+        pool: the vehicles that episodes fly: that of the settings, or those drawn from it.
+        scene: what is integrated, with the pool's first vehicle.
+        current_draw: what the current of an episode is drawn from.
+        time_varying: whether the weather changes, so that episodes begin at a time that is drawn.
+        task: the formulas, for these actions and sensors.
+        action_mapping: what an action does.
+    """
+
+    definition: TaskDefinition
+    settings: Settings
+    task_settings: Any
+    reward_weights: Any
+    extra_rewards: tuple[RewardTerm, ...]
+
+    def _prepare(
+        self,
+        task: TaskDefinition | str,
+        vehicle: VehicleLike | None,
+        reward: Any,
+        extra_rewards: Sequence[RewardTerm],
+        settings: Settings | None,
+        keywords: dict[str, Any],
+    ) -> None:
+        """Check everything and prepare the vehicles; see `MarineEnv` for the arguments."""
+        definition = task_named(task)
+        given: dict[str, Any] = dict(keywords) if vehicle is None else {**keywords, "vehicle": vehicle}
+        of_task = {name: given.pop(name) for name in list(given) if name not in SETTINGS}
+        if settings is not None and given:
+            raise InvalidInputError(f"settings and {sorted(given)} are given; give the one or the others")
+        if settings is not None and not isinstance(settings, Settings):
+            raise InvalidInputError(f"settings = {settings!r}; give a dq_marine.Settings")
+        chosen = settings or Settings(**(_defaults(definition) | given))
+        finite_number("control_period", chosen.control_period, above=0.0)
+        own = definition.checked_settings(of_task, chosen.flown)
+        weights = definition.checked_weights(reward)
+        _check_parameters(
+            definition, definition.parameters(own, EpisodeContext(chosen.flown, chosen.control_period, {}))
+        )
+        self.__dict__.update(
+            definition=definition,
+            settings=chosen,
+            task_settings=own,
+            reward_weights=weights,
+            extra_rewards=checked_extra_rewards(extra_rewards, definition),
+        )
+        _warn_if_unsuitable(definition, chosen.flown)
+        self.pool = prepared_pool(chosen)
+        self.scene = self.pool.scene
+        self.current_draw = draw_of(self.scene.current)
+        self.time_varying = any(part.changes for part in self.scene.weather)
+        self._compose()
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """The nominal vehicle."""
+        return self.settings.flown
+
+    @property
+    def control_period(self) -> float:
+        """Time between actions [s]."""
+        return self.settings.control_period
+
+    @property
+    def substeps(self) -> int:
+        """Integrator steps in a control period."""
+        return self.settings.substeps
+
+    @property
+    def action_names(self) -> tuple[str, ...]:
+        """What each number of an action drives: axes such as "surge", or channels of the vehicle's actuators."""
+        return self.action_mapping.names
+
+    @property
+    def observations(self) -> tuple[Observed, ...]:
+        """What an observation consists of, in its order."""
+        own = self.definition.observations(self.task_settings, self.vehicle)
+        return (*own, *(Observed(*shown) for shown in shown_numbers(self.settings.sensor_list)))
+
+    @property
+    def observation_bound(self) -> NDArray[np.float32]:
+        """Largest magnitude of each observed number."""
+        return np.array([one.bound for one in self.observations for _ in range(one.size)], dtype=np.float32)
+
+    @property
+    def report_names(self) -> tuple[str, ...]:
+        """What the numbers of `Episode.report` are called in `info`, up to the success."""
+        terms = (*self.definition.reward_names, *(term.name for term in self.extra_rewards))
+        return (*self.definition.metric_names, *(f"reward/{name}" for name in terms))
+
+    @property
+    def base_parameters(self) -> StepParameters:
+        """The numbers of the step of the pool's first vehicle."""
+        return self.pool.parameters[0]
+
+    def episode_parameters(self, options: dict[str, NDArray[np.float64]]) -> EpisodeParameters:
+        """Return the numbers of an episode with the given options, for the nominal vehicle."""
+        context = EpisodeContext(self.vehicle, self.control_period, options)
+        return EpisodeParameters(
+            task=self.definition.parameters(self.task_settings, context),
+            weights=self.reward_weights,
+            extra_weights=tuple(float(term.weight) for term in self.extra_rewards),
+            wrench_limits=wrench_limits_of(self.vehicle),
+            actions=float(len(self.action_mapping.places)),
+            sensors=nested_numbers(self.settings.sensor_list, self.control_period, self.vehicle.gravity),
+        )
+
+    @property
+    def blank_memory(self) -> Any:
+        """A memory at an episode's start, to tell its structure by."""
+        drawn = self._blank_start()
+        return self.task.initial_memory(self.episode_parameters({}), drawn.start, drawn.for_task)
+
+    def checked_options(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
+        """Return reset's options as arrays.
+
+        Raises:
+            InvalidInputError: one is unknown or wrong.
+        """
+        return check_current(checked_options(options, self.definition.options), self.scene)
+
+    def __getattr__(self, name: str) -> Any:
+        """Return a keyword of the task.
+
+        Raises:
+            AttributeError: there is no such attribute.
+        """
+        definition = self.__dict__.get("definition")
+        if definition is not None and name in definition.keywords:
+            return getattr(self.task_settings, name)
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set an attribute, or a keyword of the task.
+
+        Raises:
+            InvalidInputError: the task refuses the value; nothing is changed.
+        """
+        if name in self.__dict__.get("definition", _NOTHING).keywords:
+            changed = replace(self.task_settings, **{name: value})
+            self.__dict__["task_settings"] = self.definition.fitted(changed, self.vehicle)
+        else:
+            super().__setattr__(name, value)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what cannot travel: compiled code and open windows; registered tasks travel by name."""
+        carried = {name: value for name, value in self.__dict__.items() if name not in _NOT_CARRIED}
+        return carried | {"definition": travelling(self.definition)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Compile again (from the cache on disk) and start without a window."""
+        self.__dict__.update(state | {"definition": arrived(state["definition"])})
+        self._compose()
+
+    def _compose(self) -> None:
+        """Join the formulas and compile them; nothing of this travels."""
+        self.action_mapping = action_mapping_of(self.scene)
+        functions = tuple(term.function for term in self.extra_rewards)
+        task = episode_task(self.definition.task, functions)
+        instruments = tuple(one.instrument for one in self.settings.sensor_list)
+        sensed = with_sensors(task, instruments) if instruments else task
+        self.task = self.action_mapping.task(sensed)
+        self._period_draws = sum(map(len, draws_of_period(self.scene.composition, self.task)))
+        self._motion = make_motion(self.scene.composition)
+        self._report_names = self.report_names
+        self._success_place = len(self._report_names)
+        self._has_choice = self.pool.has_choice
+        self._period, self._substeps = self.settings.control_period, self.settings.substeps
+        self._compiled = self._compile()
+
+    def _compile(self) -> Callable[..., Any]:
+        return compiled_control_period(
+            self.scene.composition,
+            self.task,
+            structure_type(self.base_parameters),
+            structure_type(self.episode_parameters({})),
+            structure_type(self.blank_memory),
+        )
+
+    def _blank_start(self) -> Drawn:
+        return at_origin(self.task.draws, self.task.sensing.first_draws)
+
+
+class _Nothing:
+    keywords = ()
+
+
+_NOTHING = _Nothing()
+"""Stands for the definition while an environment is being made."""
+
+
+_NOT_CARRIED = ("_compiled", "_motion", "_view", "action_mapping", "task")
+
+
+def _check_parameters(definition: TaskDefinition, parameters: Any) -> None:
+    """Refuse parameters whose numbers have no names: environments in lanes tell by them what differs.
+
+    Raises:
+        InvalidInputError: they are no named tuple.
+    """
+    if not isinstance(parameters, tuple) or not hasattr(parameters, "_fields"):
+        raise InvalidInputError(
+            f"the parameters of {definition.id} are a {type(parameters).__name__}; return a NamedTuple of numbers"
+        )
+
+
+def _defaults(definition: TaskDefinition) -> dict[str, Any]:
+    return {
+        "vehicle": definition.vehicle,
+        "current": None,
+        "control_period": definition.control_period,
+        "substeps": definition.substeps,
+    }
+
+
+def _warn_if_unsuitable(definition: TaskDefinition, vehicle: Vehicle) -> None:
+    reason = definition.unsuitable(vehicle)
+    if reason is not None:
+        suiting = ", ".join(tasks_suiting(vehicle)) or "none of the registered tasks"
+        warnings.warn(
+            f"{definition.id} cannot be done with {vehicle.name}: {reason}. Tasks that suit it: {suiting}",
+            UnsuitableVehicleWarning,
+            stacklevel=3,
+        )

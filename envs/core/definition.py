@@ -1,0 +1,178 @@
+"""What a file that defines a task says: its formulas, its keywords, what its numbers mean, and whom it suits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.algebra.quaternion import Quaternion
+from dq_marine.algebra.vector3 import Vector3
+from dq_marine.checks import finite_number
+from dq_marine.errors import InvalidInputError, UnknownKeywordError
+from dq_marine.task.protocol import Task
+
+if TYPE_CHECKING:
+    from dq_marine.vehicles import Vehicle
+
+
+class Observed(NamedTuple):
+    """Some numbers of an observation that belong together.
+
+    Attributes:
+        name: in snake case, with the frame.
+        unit: such as "m/s"; "" for ratios.
+        size: how many numbers.
+        bound: their largest magnitude.
+        meaning: one line for people.
+    """
+
+    name: str
+    unit: str
+    size: int
+    bound: float
+    meaning: str
+
+
+class Goal(NamedTuple):
+    """Where the vehicle is to go, for drawing: position in NED [m], attitude body to NED."""
+
+    position_ned: Vector3
+    attitude: Quaternion = (1.0, 0.0, 0.0, 0.0)
+
+
+class EpisodeContext(NamedTuple):
+    """What a task's parameters may depend on besides its own settings.
+
+    Attributes:
+        vehicle: the nominal one.
+        control_period: time between actions [s].
+        fitted: (settings, vehicle) -> the settings with what depends on the vehicle filled in, where nothing was said.
+        options: the task's own options of `reset`, checked: arrays by name.
+    """
+
+    vehicle: Vehicle
+    control_period: float
+    options: Mapping[str, NDArray[np.float64]]
+
+
+@dataclass(frozen=True)
+class NoSettings:
+    """Of a task without keywords of its own."""
+
+
+def as_given(settings: Any, vehicle: Vehicle) -> Any:
+    """Return a task's settings: nothing of them depends on the vehicle."""
+    return settings
+
+
+def no_goal(parameters: Any, memory: Any) -> Goal | None:
+    """Return that there is nothing to draw."""
+    return None
+
+
+def suits_all(vehicle: Vehicle) -> str | None:
+    """Return that any vehicle can do the task."""
+    return None
+
+
+@dataclass(frozen=True)
+class TaskDefinition:
+    """A task, for `dq_marine.register_task`.
+
+    Attributes:
+        id: for `gym.make`, such as "dq_marine/StationKeeping-v0".
+        summary: one line.
+        task: its formulas, see `dq_marine.task.protocol`.
+        parameters: (settings, context) -> the named tuple of numbers that the formulas take first.
+        observations: (settings, vehicle) -> what the observation consists of, in its order.
+        weights: the named tuple of the reward's weights, and of what else shapes it, with their defaults. The names of
+            widths end with `_width`.
+        settings: a frozen dataclass of the task's keywords, with their defaults, which checks itself.
+        fitted: (settings, vehicle) -> the settings with what depends on the vehicle filled in, where nothing was said.
+        options: the task's own options of `reset`, with the size of each; a quaternion's name ends with `quaternion`.
+        episode_fields: of the parameters, those that the options change.
+        units: of the metrics, by name; for angles in radians "rad".
+        tolerances: of some metrics: an episode is settled from when on all of them stay within.
+        goal: (parameters, memory) -> the goal to be drawn.
+        unsuitable: (vehicle) -> why the task cannot be done with it; None where it can.
+        vehicle: the default one.
+        control_period: the default one [s].
+        substeps: the default number of integrator steps in a control period.
+        max_episode_steps: control periods after which an episode is truncated.
+    """
+
+    id: str
+    summary: str
+    task: Task
+    parameters: Callable[[Any, EpisodeContext], Any]
+    observations: Callable[[Any, Vehicle], Sequence[Observed]]
+    weights: Any
+    settings: type[Any] = NoSettings
+    fitted: Callable[[Any, Vehicle], Any] = as_given
+    options: Mapping[str, int] = field(default_factory=dict)
+    episode_fields: tuple[str, ...] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
+    tolerances: Mapping[str, float] = field(default_factory=dict)
+    goal: Callable[[Any, Any], Goal | None] = no_goal
+    unsuitable: Callable[[Vehicle], str | None] = suits_all
+    vehicle: str = "bluerov2_heavy"
+    control_period: float = 0.1
+    substeps: int = 4
+    max_episode_steps: int = 300
+
+    @property
+    def metric_names(self) -> tuple[str, ...]:
+        """Names of what the task measures."""
+        return tuple(self.task.metrics._fields)
+
+    @property
+    def reward_names(self) -> tuple[str, ...]:
+        """Names of the terms of its reward."""
+        return tuple(self.task.rewards._fields)
+
+    @property
+    def keywords(self) -> tuple[str, ...]:
+        """Names of its own keywords."""
+        return tuple(one.name for one in fields(self.settings))
+
+    def checked_settings(self, given: Mapping[str, Any], vehicle: Vehicle) -> Any:
+        """Return the task's settings for a vehicle.
+
+        Raises:
+            UnknownKeywordError: a keyword is unknown.
+            InvalidInputError: a value is wrong.
+        """
+        unknown = sorted(set(given) - set(self.keywords))
+        if unknown:
+            remedy = f"its own are {list(self.keywords)}, and it takes those of dq_marine.Settings"
+            raise UnknownKeywordError.of(self.id, unknown, remedy)
+        return self.fitted(self.settings(**given), vehicle)
+
+    def checked_weights(self, reward: Any) -> Any:
+        """Return the weights of the reward from whatever form they are given in.
+
+        Raises:
+            InvalidInputError: a name is unknown, or a value is not finite, negative, or a width of 0.
+        """
+        known = list(self.weights._fields)
+        if reward is None:
+            return self.weights
+        given = reward._asdict() if isinstance(reward, type(self.weights)) else reward
+        if not isinstance(given, Mapping):
+            raise InvalidInputError(f"reward = {reward!r}; give a dictionary with keys among {known}")
+        unknown = sorted(map(str, set(given) - set(known)))
+        if unknown:
+            raise InvalidInputError(f"reward has unknown keys {unknown}; it takes {known}")
+        return self.weights._replace(**{name: _checked_weight(name, value) for name, value in given.items()})
+
+
+def _checked_weight(name: str, value: Any) -> float:
+    number = finite_number(f"reward.{name}", value)
+    if number < 0.0 or (number == 0.0 and name.endswith("_width")):
+        limit = "above 0" if name.endswith("_width") else "0 or more"
+        raise InvalidInputError(f"reward.{name} = {number:g}; give a number {limit}")
+    return number

@@ -1,0 +1,12 @@
+"""Parts of observations that several tasks share."""
+
+from __future__ import annotations
+
+from dq_marine.envs.core.definition import Observed
+from dq_marine.task.common import SPEED_BOUND
+
+VELOCITY = (
+    Observed("linear_velocity_body", "m/s", 3, SPEED_BOUND, "surge, sway and heave over ground"),
+    Observed("angular_velocity_body", "rad/s", 3, SPEED_BOUND, "roll, pitch and yaw rate"),
+)
+"""What `dq_marine.task.common.observed_velocity` gives."""

@@ -1,0 +1,101 @@
+"""Tasks by id: registered with Gymnasium, found again by environments in this process and in workers."""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, NamedTuple
+
+import gymnasium as gym
+
+from dq_marine.envs.core.definition import TaskDefinition
+from dq_marine.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    from dq_marine.vehicles import Vehicle
+
+SINGLE = "dq_marine.envs.core.marine_env:MarineEnv"
+VECTOR = "dq_marine.envs.vector.vector_env:MarineVectorEnv"
+
+_TASKS: dict[str, TaskDefinition] = {}
+_MODULES: dict[str, str] = {}
+
+
+class TravellingTask(NamedTuple):
+    """A registered task on its way to another process: its id, and the module that registers it there."""
+
+    id: str
+    module: str
+
+
+def register_task(definition: TaskDefinition, module: str | None = None) -> None:
+    """Register a task: `gym.make` and `gym.make_vec` then know its id.
+
+    In a worker process that is started afresh, the module that calls this has to be imported, too:
+    `gym.make("my_module:my/Task-v0")` does so, and so does an environment that is unpickled there.
+
+    Args:
+        definition: of the task.
+        module: that calls this, by its dotted name; None for the one that defines the task's parameters.
+
+    Raises:
+        InvalidInputError: another task has this id.
+    """
+    known = _TASKS.get(definition.id)
+    if known is not None and known != definition:
+        raise InvalidInputError(f"there is another task {definition.id!r}; give yours an id of its own")
+    _TASKS[definition.id] = definition
+    _MODULES[definition.id] = module or definition.parameters.__module__
+    if definition.id not in gym.registry:
+        gym.register(
+            id=definition.id,
+            entry_point=SINGLE,
+            vector_entry_point=VECTOR,
+            max_episode_steps=definition.max_episode_steps,
+            kwargs={"task": definition.id},
+        )
+
+
+def task_named(task: TaskDefinition | str) -> TaskDefinition:
+    """Return a registered task by its id, or the one given.
+
+    Raises:
+        InvalidInputError: there is none of this id.
+    """
+    if isinstance(task, TaskDefinition):
+        return task
+    if task not in _TASKS:
+        raise InvalidInputError(
+            f"there is no task {task!r}; there are {sorted(_TASKS)}, and what dq_marine.register_task is given"
+        )
+    return _TASKS[task]
+
+
+def travelling(definition: TaskDefinition) -> TaskDefinition | TravellingTask:
+    """Return what stands for a task on its way to another process; one that is not registered travels itself."""
+    if _TASKS.get(definition.id) != definition:
+        return definition
+    return TravellingTask(definition.id, _MODULES[definition.id])
+
+
+def arrived(task: TaskDefinition | TravellingTask) -> TaskDefinition:
+    """Return the task that `travelling` stood for; the module that registers it is imported if need be.
+
+    Raises:
+        InvalidInputError: that module does not register it.
+        ImportError: there is no such module here.
+    """
+    if isinstance(task, TaskDefinition):
+        return task
+    if task.id not in _TASKS:
+        importlib.import_module(task.module)
+    return task_named(task.id)
+
+
+def registered_tasks() -> tuple[TaskDefinition, ...]:
+    """Return all tasks, in the order of their ids."""
+    return tuple(_TASKS[name] for name in sorted(_TASKS))
+
+
+def tasks_suiting(vehicle: Vehicle) -> tuple[str, ...]:
+    """Return the ids of the tasks that can be done with a vehicle."""
+    return tuple(task.id for task in registered_tasks() if task.unsuitable(vehicle) is None)

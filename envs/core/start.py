@@ -1,0 +1,79 @@
+"""Where an episode starts, and what of it `reset`'s options fix."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.algebra.spatial import Spatial, from_fossen, to_fossen
+from dq_marine.checks import finite_array, unit_quaternion
+from dq_marine.errors import InvalidInputError
+from dq_marine.task.protocol import Start
+from dq_marine.task.start import Drawn
+
+START_OPTIONS = {"position": 3, "quaternion": 4, "velocity": 6, "current": 3}
+"""Options of `reset` that every task has, with their sizes, in NED and SI units; what is not given is drawn."""
+
+
+def at_origin(task_draws: int, sensing_draws: int) -> Drawn:
+    """Return a start at the world's origin, at rest in still water, with so many uniforms for task and sensors."""
+    rest = Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    start = Start((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), rest)
+    return Drawn(start, (0.0, 0.0, 0.0), (0.0,) * task_draws, (0.0,) * sensing_draws)
+
+
+def as_chosen(drawn: Drawn, chosen: dict[str, NDArray[np.float64]]) -> Drawn:
+    """Return what was drawn, but for what was chosen."""
+    drawn_start = {
+        "position": drawn.start.position_ned,
+        "quaternion": drawn.start.attitude,
+        "velocity": to_fossen(drawn.start.velocity),
+        "current": drawn.current_ned,
+    }
+    values: dict[str, Any] = {
+        name: tuple(chosen[name].tolist()) if name in chosen else value for name, value in drawn_start.items()
+    }
+    start = Start(values["position"], values["quaternion"], from_fossen(values["velocity"]))
+    return drawn._replace(start=start, current_ned=values["current"])
+
+
+NO_UNIFORMS = np.zeros(0)
+"""Of a control period in which nothing is drawn."""
+
+
+def drawn_uniforms(
+    random: np.random.Generator, count: int, command: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return uniform random numbers for a control period; none are drawn for a command that will be refused."""
+    if count == 0:
+        return NO_UNIFORMS
+    return random.random(count) if np.isfinite(command).all() else np.zeros(count)
+
+
+def checked_options(options: dict[str, Any] | None, own: Mapping[str, int]) -> dict[str, NDArray[np.float64]]:
+    """Return `reset`'s options as arrays.
+
+    Args:
+        options: as they came.
+        own: the task's options, with their sizes.
+
+    Raises:
+        InvalidInputError: a key is unknown or a value wrong.
+    """
+    if options is None:
+        return {}
+    sizes = {**START_OPTIONS, **own}
+    unknown = sorted(set(options) - set(sizes))
+    if unknown:
+        raise InvalidInputError(f"options has unknown keys {unknown}; it takes {list(sizes)}")
+    return {name: _checked(name, value, sizes[name]) for name, value in options.items()}
+
+
+def _checked(name: str, value: Any, size: int) -> NDArray[np.float64]:
+    label = f"options[{name!r}]"
+    if name.endswith("quaternion"):
+        return unit_quaternion(label, value)
+    return finite_array(label, value, size)

@@ -1,0 +1,123 @@
+"""The vehicles that an environment's episodes fly, prepared once: their numbers as rows that compiled code reads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.backend.packing import pack, structure_type
+from dq_marine.backend.simd.vehicles import PoolLayout, member_index
+from dq_marine.envs.core.currents import numbers_of
+from dq_marine.errors import InvalidInputError
+from dq_marine.integrator.step import StepParameters
+from dq_marine.randomisation import Randomisation
+from dq_marine.simulation.scene import Scene
+from dq_marine.simulation.settings import Settings
+from dq_marine.task.episode import EpisodeParameters
+from dq_marine.vehicles import Vehicle
+
+VEHICLE_FIELDS = ("wrench_limits",)
+"""Of an episode's parameters, those that are a vehicle's."""
+
+
+@dataclass(frozen=True)
+class VehiclePool:
+    """Vehicles alike in what is computed, one of which each episode flies.
+
+    Attributes:
+        vehicles: at least one.
+        scene: of the first of them, which stands for all.
+        parameters: of each one's step.
+        rows: the parameters of the step and the limits of the wrench, packed, shape (vehicles, numbers).
+    """
+
+    vehicles: tuple[Vehicle, ...]
+    scene: Scene
+    parameters: tuple[StepParameters, ...]
+    rows: NDArray[np.float64]
+
+    @property
+    def layout(self) -> PoolLayout | None:
+        """What a row holds; None where there is nothing to choose."""
+        if not self.has_choice:
+            return None
+        member = (self.parameters[0], (wrench_limits_of(self.vehicles[0]),))
+        return PoolLayout(structure_type(member), VEHICLE_FIELDS)
+
+    @property
+    def has_choice(self) -> bool:
+        """Whether there is more than one vehicle: only then an episode draws."""
+        return len(self.vehicles) > 1
+
+    def drawn(self, random: np.random.Generator) -> int:
+        """Return the number of a vehicle, drawn by one uniform random number if there is a choice."""
+        return member_index(len(self.vehicles), random.random()) if self.has_choice else 0
+
+    def fitted(self, episode_parameters: EpisodeParameters, number: int) -> EpisodeParameters:
+        """Return an episode's parameters with those of one vehicle."""
+        return episode_parameters._replace(wrench_limits=wrench_limits_of(self.vehicles[number]))
+
+    def check_number(self, number: int) -> None:
+        """Refuse a number that is no vehicle's.
+
+        Raises:
+            InvalidInputError: it is not.
+        """
+        if not 0 <= number < len(self.vehicles):
+            raise InvalidInputError(
+                f"state['vehicle'] = {number}; the environment has vehicles 0 to {len(self.vehicles) - 1}"
+            )
+
+
+def prepared_pool(settings: Settings) -> VehiclePool:
+    """Return the vehicles of settings with their numbers: the vehicle itself, or those drawn from it.
+
+    Raises:
+        InvalidInputError: a vehicle cannot be integrated with the step, or the vehicles differ in what is computed.
+    """
+    vehicles = drawn_vehicles(settings)
+    scenes = [
+        _scene(settings.with_vehicle(vehicle), number, len(vehicles))
+        for number, vehicle in enumerate(vehicles)
+    ]
+    first = scenes[0]
+    for number, scene in enumerate(scenes):
+        if scene.composition != first.composition:
+            raise InvalidInputError(
+                f"drawn vehicle {number} has the terms {list(scene.terms)}, vehicle 0 {list(first.terms)}; give "
+                "distributions under which no term of the one is zero in another"
+            )
+    parameters = tuple(map(numbers_of, scenes))
+    limits = [(wrench_limits_of(vehicle),) for vehicle in vehicles]
+    rows = np.array([pack(member) for member in zip(parameters, limits, strict=True)])
+    return VehiclePool(vehicles, first, parameters, rows)
+
+
+def drawn_vehicles(settings: Settings) -> tuple[Vehicle, ...]:
+    """Return the vehicles that episodes fly.
+
+    Raises:
+        InvalidInputError: see `Randomisation.pool`.
+    """
+    if settings.randomise is None:
+        return (settings.flown,)
+    return Randomisation.load(settings.randomise).pool(
+        settings.flown, settings.vehicle_pool, settings.vehicle_seed
+    )
+
+
+def wrench_limits_of(vehicle: Vehicle) -> tuple[float, float, float, float, float, float]:
+    """Return the wrench at full action [N, N m], Fossen's order."""
+    x, y, z, k, m, n = vehicle.wrench_limits.tolist()
+    return (x, y, z, k, m, n)
+
+
+def _scene(settings: Settings, number: int, count: int) -> Scene:
+    try:
+        return Scene.from_settings(settings)
+    except InvalidInputError as error:
+        if count == 1:
+            raise
+        raise InvalidInputError(f"drawn vehicle {number} of {count}: {error}") from error

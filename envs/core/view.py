@@ -1,0 +1,143 @@
+"""What an environment shows of its episode: a live page, pictures, a recorded replay."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.errors import InvalidInputError
+from dq_marine.util.announce import announce
+from dq_marine.vehicles import Vehicle
+from dq_marine.viewer.snapshot import Shape, Snapshot, Thruster
+
+if TYPE_CHECKING:
+    from dq_marine.envs.core.marine_env import MarineEnv
+    from dq_marine.viewer.live import LiveViewer
+    from dq_marine.viewer.offscreen import OffscreenViewer
+    from dq_marine.viewer.pacing import RealTimePacer
+
+
+AHEAD = (1.0, 0.0, 0.0)
+"""Azimuths are drawn as they stand at the angle 0."""
+
+
+def shape_of(vehicle: Vehicle) -> Shape:
+    """Return what a viewer needs to draw a vehicle."""
+    size = vehicle.dimensions
+    return Shape(
+        length=size.length,
+        width=size.width,
+        height=size.height,
+        kind=size.shape,
+        draft=size.draft,
+        max_force=float(vehicle.wrench_limits[:3].max()) or 1.0,
+        thrusters=tuple(
+            Thruster(np.array(position), np.array(direction))
+            for position, direction in (
+                *((thruster.position, thruster.direction) for thruster in vehicle.thrusters),
+                *((azimuth.position, AHEAD) for azimuth in vehicle.azimuths),
+            )
+        ),
+    )
+
+
+def checked_render_mode(mode: str | None, known: list[str]) -> str | None:
+    """Return the mode.
+
+    Raises:
+        InvalidInputError: it is none of those known.
+    """
+    if mode is not None and mode not in known:
+        raise InvalidInputError(f"render_mode = {mode!r}; give None or one of {known}")
+    return mode
+
+
+def open_page(shape: Shape) -> LiveViewer:
+    """Open a live page and say where it is."""
+    from dq_marine.viewer.live import LiveViewer
+
+    page = LiveViewer(shape, open_browser=True)
+    announce(f"the live page is at {page.url}")
+    return page
+
+
+class EpisodeView:
+    """Draws and records the episodes of one environment; opens nothing before it is needed."""
+
+    def __init__(self, env: MarineEnv) -> None:
+        self._mode = env.render_mode
+        self._record = env.record
+        self._shape = shape_of(env.vehicle)
+        self._title = env.vehicle.name
+        self._snapshots: list[Snapshot] = []
+        self._live: LiveViewer | None = None
+        self._pacer: RealTimePacer | None = None
+        self._offscreen: OffscreenViewer | None = None
+        self.wants_frames = self._record or self._mode == "human"
+
+    def begin(self, env: MarineEnv) -> None:
+        """Start a new episode at the environment's present state."""
+        self._snapshots = []
+        self._pacer = None
+        if self._live is not None:
+            self._live.clear_trail()
+        if self._offscreen is not None:
+            self._offscreen.clear_trail()
+        if self.wants_frames:
+            self.show(env)
+
+    def show(self, env: MarineEnv) -> None:
+        """Record the present state, and draw it at its time if a page is to follow."""
+        snapshot = env.snapshot()
+        if self._record:
+            self._snapshots.append(snapshot)
+        if self._mode == "human":
+            self._draw_live(snapshot)
+
+    def render(self, env: MarineEnv) -> NDArray[np.uint8] | None:
+        """Return a picture in mode "rgb_array"."""
+        if self._mode != "rgb_array":
+            return None
+        return self._pictures().render(env.snapshot())
+
+    def render_still(self, env: MarineEnv) -> NDArray[np.uint8]:
+        """Return a picture without a trail."""
+        self._pictures().clear_trail()
+        return self._pictures().render(env.snapshot())
+
+    def save_html(self, path: str | os.PathLike[str]) -> None:
+        """Write the recorded episode as a standalone page."""
+        if not self._record:
+            raise InvalidInputError(
+                "nothing was recorded; make the environment with record=True, then save_html() after some steps"
+            )
+        from dq_marine.viewer.replay import save_replay
+
+        save_replay(path, self._snapshots, self._shape, title=self._title)
+
+    def close(self) -> None:
+        """Close page and pictures; both open again when asked for."""
+        for viewer in (self._live, self._offscreen):
+            if viewer is not None:
+                viewer.close()
+        self._live = self._offscreen = self._pacer = None
+
+    def _pictures(self) -> OffscreenViewer:
+        if self._offscreen is None:
+            from dq_marine.viewer.offscreen import OffscreenViewer
+
+            self._offscreen = OffscreenViewer(self._shape)
+        return self._offscreen
+
+    def _draw_live(self, snapshot: Snapshot) -> None:
+        from dq_marine.viewer.pacing import RealTimePacer
+
+        if self._live is None:
+            self._live = open_page(self._shape)
+        if self._pacer is None:
+            self._pacer = RealTimePacer()
+        self._pacer.wait_until(snapshot.time)
+        self._live.draw(snapshot)

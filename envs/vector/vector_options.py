@@ -1,0 +1,140 @@
+"""Actions, seeds and options of a vector environment, checked, and as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from numpy.typing import NDArray
+
+from dq_marine.checks import finite_rows, unit_quaternion_rows
+from dq_marine.envs.core.start import START_OPTIONS
+from dq_marine.errors import InvalidInputError
+
+CHOSEN_SLICES = {
+    "position": slice(0, 3),
+    "quaternion": slice(3, 7),
+    "velocity": slice(7, 13),
+    "current": slice(13, 16),
+}
+"""Where the options of a start stand in a row of `PeriodArrays.chosen`."""
+
+RESET_MASK = "reset_mask"
+
+
+def checked_seeds(seed: int | Sequence[int | None] | None, n: int) -> list[int | None]:
+    """Return a seed for each of n environments, None for those whose generator goes on.
+
+    Raises:
+        InvalidInputError: a seed is no whole number of 0 or more, or there is not one for each.
+    """
+    if seed is None:
+        return [None] * n
+    if isinstance(seed, int | np.integer):
+        seeds: list[int | None] = [int(seed) + index for index in range(n)]
+    else:
+        seeds = [None if one is None else int(one) for one in seed]
+    if len(seeds) != n:
+        raise InvalidInputError(f"{len(seeds)} seeds for {n} environments; give one number, or one for each")
+    if any(one is not None and one < 0 for one in seeds):
+        raise InvalidInputError(f"seed = {seed!r}; give whole numbers of 0 or more")
+    return seeds
+
+
+def checked_mask(options: dict[str, Any] | None, n: int) -> NDArray[np.bool_]:
+    """Return which of n environments are reset: all, or those of the option `reset_mask`.
+
+    Raises:
+        InvalidInputError: it is not an array of n bools with at least one True.
+    """
+    if options is None or RESET_MASK not in options:
+        return np.ones(n, np.bool_)
+    mask = options[RESET_MASK]
+    if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_ or mask.shape != (n,) or not mask.any():
+        raise InvalidInputError(
+            f"options['{RESET_MASK}'] = {mask!r}; give a NumPy array of {n} bools, at least one of them True"
+        )
+    return mask
+
+
+def checked_actions(actions: Any, shape: tuple[int, int]) -> NDArray[Any]:
+    """Return actions as an array.
+
+    Raises:
+        InvalidInputError: they are not numeric, of another shape, or not finite.
+    """
+    try:
+        given = np.asarray(actions)
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = float(given.sum())
+    except (TypeError, ValueError) as error:
+        raise InvalidInputError(f"actions = {actions!r} is not numeric") from error
+    if given.shape != shape:
+        raise InvalidInputError(f"actions have shape {given.shape}; give shape {shape}")
+    if not np.isfinite(total):
+        bad = np.flatnonzero(~np.isfinite(given).all(axis=1))
+        if bad.size:
+            raise InvalidInputError(
+                f"actions[{bad[0]}] = {given[bad[0]].tolist()} is not finite; give finite numbers"
+            )
+    return given
+
+
+def split_options(
+    options: dict[str, Any] | None,
+    n: int,
+    check: Callable[[dict[str, Any]], dict[str, NDArray[np.float64]]],
+    own: Mapping[str, int],
+) -> tuple[dict[str, NDArray[np.float64]], dict[str, NDArray[np.float64]]]:
+    """Return the options that are one for all environments, and those with a row for each, both checked.
+
+    Args:
+        options: of `reset`.
+        n: number of environments.
+        check: of the options that are one for all.
+        own: the task's options, with their sizes.
+
+    Raises:
+        InvalidInputError: an option is unknown or wrong.
+    """
+    given = {name: value for name, value in (options or {}).items() if name != RESET_MASK}
+    for_each = {name: value for name, value in given.items() if _has_rows(value)}
+    for_all = check({name: value for name, value in given.items() if name not in for_each})
+    rows = {name: _checked_rows(name, value, n, check, own) for name, value in for_each.items()}
+    return for_all, rows
+
+
+def _has_rows(value: Any) -> bool:
+    try:
+        return np.ndim(value) == 2
+    except ValueError:  # a ragged list: the check says what is wrong with it
+        return False
+
+
+def _checked_rows(
+    name: str, value: Any, n: int, check: Callable[[dict[str, Any]], Any], own: Mapping[str, int]
+) -> NDArray[np.float64]:
+    label = f"options[{name!r}]"
+    if name.endswith("quaternion"):
+        rows = unit_quaternion_rows(label, value, n)
+    else:
+        rows = finite_rows(label, value, n, {**START_OPTIONS, **own}.get(name, 3))
+    # The largest row stands for all in what a single environment checks: names, and whether there is a current.
+    check({name: rows[int(np.abs(rows).max(axis=1).argmax())]})
+    return rows
+
+
+def checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
+    """Return the mode of a member, its value or its name, in any case.
+
+    Raises:
+        InvalidInputError: there is no such mode.
+    """
+    plain = mode.value if isinstance(mode, AutoresetMode) else str(mode)
+    for member in AutoresetMode:
+        if plain.replace("_", "").lower() == member.value.lower():
+            return member
+    known = [member.value for member in AutoresetMode]
+    raise InvalidInputError(f"autoreset_mode = {mode!r} is unknown; give one of {known}")

@@ -1,0 +1,97 @@
+"""A run's folder: complete or absent snapshots, and nothing removed that is not a run's."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from dq_marine.agents.preset_files import read_settings
+from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.training.run_folder import Progress, RunFolder, RunPlan
+from dq_marine.errors import InvalidInputError
+
+
+@pytest.fixture
+def plan() -> RunPlan:
+    return RunPlan(read_settings("ppo", TrainingSettings), seed=3, versions={"torch": "2"})
+
+
+def write_model(text: str):
+    def write(folder: Path) -> None:
+        (folder / "model.zip").write_text(text)
+
+    return write
+
+
+def test_plan_comes_back(tmp_path: Path, plan: RunPlan) -> None:
+    folder = RunFolder(tmp_path / "run")
+    folder.begin(plan, force=False)
+    assert folder.read_plan() == plan
+
+
+def test_a_run_is_replaced_only_by_force(tmp_path: Path, plan: RunPlan) -> None:
+    folder = RunFolder(tmp_path / "run")
+    folder.begin(plan, force=False)
+    folder.save("best", Progress(10, 1.0), write_model("old"))
+    (folder.path / "notes.txt").write_text("mine")
+    with pytest.raises(InvalidInputError, match=r"holds a run already; continue it with --resume.*--force"):
+        folder.begin(plan, force=False)
+    assert folder.latest("best") is not None
+    folder.begin(plan, force=True)
+    assert folder.latest("best") is None
+    assert (folder.path / "notes.txt").read_text() == "mine"
+
+
+@pytest.mark.parametrize("force", [False, True])
+def test_what_is_no_run_is_left_alone(tmp_path: Path, plan: RunPlan, force: bool) -> None:
+    (tmp_path / "thesis.tex").write_text("years of work")
+    with pytest.raises(InvalidInputError, match="is not a run"):
+        RunFolder(tmp_path).begin(plan, force=force)
+    with pytest.raises(InvalidInputError, match="is not a run"):
+        RunFolder(tmp_path / "thesis.tex").begin(plan, force=force)
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
+
+
+def test_the_latest_snapshot_stays(tmp_path: Path) -> None:
+    folder = RunFolder(tmp_path)
+    assert folder.progress("checkpoints") == Progress(0, 0.0)
+    # A resumed run may be behind the best of the session that was killed.
+    for timesteps in (100, 300, 200):
+        folder.save("best", Progress(timesteps, 1.0, mean_return=5.0), write_model(str(timesteps)))
+    assert folder.progress("best") == Progress(200, 1.0, 5.0)
+    latest = folder.latest("best")
+    assert latest is not None
+    assert (latest / "model.zip").read_text() == "200"
+    assert len(list((tmp_path / "best").iterdir())) == 1
+
+
+def test_a_snapshot_that_failed_leaves_the_one_before(tmp_path: Path) -> None:
+    folder = RunFolder(tmp_path)
+    folder.save("checkpoints", Progress(1, 0.0), write_model("good"))
+
+    def fail(snapshot: Path) -> None:
+        write_model("half")(snapshot)
+        raise OSError("disk full")
+
+    with pytest.raises(OSError, match="disk full"):
+        folder.save("checkpoints", Progress(2, 0.0), fail)
+    assert folder.progress("checkpoints").timesteps == 1
+    assert len(list((tmp_path / "checkpoints").iterdir())) == 1
+
+
+def test_leftovers_of_a_killed_save_do_not_count(tmp_path: Path) -> None:
+    folder = RunFolder(tmp_path)
+    folder.save("checkpoints", Progress(1, 0.0), write_model("good"))
+    (tmp_path / "checkpoints" / ".incomplete-abc").mkdir()
+    assert folder.progress("checkpoints").timesteps == 1
+
+
+def test_damage_is_named(tmp_path: Path, plan: RunPlan) -> None:
+    with pytest.raises(InvalidInputError, match=r"holds no run \(no run\.json\)"):
+        RunFolder(tmp_path).read_plan()
+    folder = RunFolder(tmp_path / "run")
+    folder.begin(plan, force=False)
+    (folder.path / "run.json").write_text("{}")
+    with pytest.raises(InvalidInputError, match=r"run\.json is damaged"):
+        folder.read_plan()

@@ -1,0 +1,147 @@
+"""Damping with couplings and strips, as matrices: against tensors, differences and integrals written separately."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from support.bodies import make_damping, random_damping, random_inertia
+from support.fossen import strip_drag
+
+from dq_marine.algebra.spatial import matrix6_add_scaled, matrix6_invert, matrix6_solve, to_fossen
+from dq_marine.physics.damping.build import angular_first
+from dq_marine.physics.damping.formulas.cross_flow import StripRow, make_strip_sums
+from dq_marine.physics.matrices import matrix6, spatial
+
+seeds = st.integers(0, 2**32 - 1)
+numbers = st.floats(-10.0, 10.0)
+
+
+def array(m):
+    """A `Matrix6` in Fossen's order."""
+    a, b, c, d = (np.reshape(block, (3, 3)) for block in m)
+    return angular_first(np.block([[a, b], [c, d]]))
+
+
+def random_term(rng, couplings=8):
+    """Damping with some couplings, drawn from all that there can be, and rows of strips in both planes."""
+    tensor = np.zeros((6, 6, 6))
+    for entry in rng.integers(0, 6, (couplings, 3)):
+        tensor[tuple(entry)] = rng.normal()
+    strips = [
+        ("sway", (rng.uniform(), *rng.normal(size=2), 5)),
+        ("heave", (rng.uniform(), *rng.normal(size=2), 4)),
+    ]
+    linear, quadratic = random_damping(rng), rng.uniform(size=6)
+    term = make_damping(random_inertia(rng), linear, quadratic, tensor, strips)
+
+    def drag(nu):
+        own = linear @ nu + quadratic * np.abs(nu) * nu + np.einsum("ijk,j,k->i", tensor, nu, np.abs(nu))
+        return own + sum(strip_drag(plane, *row, nu) for plane, row in strips)
+
+    return term, drag
+
+
+@settings(max_examples=50, deadline=None)
+@given(seed=seeds)
+def test_the_drag_is_the_tensors_and_the_strips(seed):
+    rng = np.random.default_rng(seed)
+    term, drag = random_term(rng)
+    nu = rng.normal(size=6)
+    got = term._algebra.apply(term._algebra.at(term.matrices, spatial(nu)), spatial(nu))
+    assert np.allclose(to_fossen(got), drag(nu), rtol=0, atol=1e-11)
+
+
+@settings(max_examples=50, deadline=None)
+@given(seed=seeds)
+def test_the_slope_is_the_exact_derivative(seed):
+    """Between kinks D(chi) chi is quadratic, and a central difference of any width is its derivative."""
+    rng = np.random.default_rng(seed)
+    term, drag = random_term(rng)
+    nu = rng.normal(size=6)
+    nu = np.sign(nu) * (0.1 + np.abs(nu))
+    width = 1e-5
+    steps = width * np.eye(6)
+    differences = np.column_stack([(drag(nu + step) - drag(nu - step)) / (2.0 * width) for step in steps])
+    slope = array(term._algebra.slope(term.matrices, spatial(nu)))
+    assume(nearest_kink(term, nu) > width)
+    assert np.allclose(slope, differences, rtol=0, atol=1e-7)
+
+
+def nearest_kink(term, nu):
+    """How slowly the slowest strip moves across the flow, over its lever."""
+    moving = []
+    for strips in term.strips:
+        levers = strips.row.first + strips.row.spacing * np.arange(strips.number)
+        across, rate = (nu[1], nu[5]) if strips.plane == (4, 2) else (nu[2], nu[4])
+        moving.extend(np.abs(across + levers * rate) / (1.0 + np.abs(levers)))
+    return min(moving)
+
+
+@settings(max_examples=100, deadline=None)
+@given(seed=seeds, nu=st.tuples(*[numbers] * 6))
+def test_strips_only_take_energy(seed, nu):
+    rng = np.random.default_rng(seed)
+    rows = [
+        ("sway", (rng.uniform(), *rng.normal(size=2), 7)),
+        ("heave", (rng.uniform(), *rng.normal(size=2), 3)),
+    ]
+    term = make_damping(np.eye(6), np.zeros((6, 6)), np.zeros(6), strips=rows)
+    matrix = array(term._algebra.at(term.matrices, spatial(np.array(nu))))
+    assert np.array_equal(matrix, matrix.T)
+    assert np.linalg.eigvalsh(matrix).min() >= -1e-12 * max(1.0, np.abs(matrix).max())
+
+
+@pytest.mark.parametrize(("speed", "rate"), [(0.7, 0.0), (0.0, -0.4), (0.3, 0.9), (-0.5, 0.1)])
+def test_many_strips_are_the_integral_over_the_hull(speed, rate):
+    """Of c |v + x r| x^n over a hull from -0.4 m to 1.2 m, with its kink told to SciPy's quadrature."""
+    kink = [-speed / rate] if rate else None
+    exact = [
+        quad(lambda x, n=n: 3.0 * abs(speed + x * rate) * x**n, -0.4, 1.2, points=kink)[0] for n in range(3)
+    ]
+    errors = []
+    for count in (40, 400):
+        width = 1.6 / count
+        row = StripRow(3.0 * width, -0.4 + 0.5 * width, width)
+        errors.append(np.abs(np.subtract(make_strip_sums(count)(row, speed, rate), exact)).max())
+    assert errors[0] < 5e-3
+    assert errors[1] < max(errors[0] / 50.0, 1e-12)
+
+
+@settings(max_examples=50, deadline=None)
+@given(seed=seeds)
+def test_unsymmetric_systems_are_solved(seed):
+    """M + h D with a D of couplings alone, as lift makes it, small enough for the linear block to be regular."""
+    rng = np.random.default_rng(seed)
+    term, _ = random_term(rng)
+    m, nu, load = random_inertia(rng), rng.normal(size=6), rng.normal(size=6)
+    d = term._algebra.at(term.matrices, spatial(nu))
+    system = matrix6_add_scaled(matrix6(angular_first(m)), 0.05, d)
+    exact = np.linalg.solve(m + 0.05 * array(d), load)
+    assert np.allclose(to_fossen(matrix6_solve(system, spatial(load))), exact, rtol=1e-9, atol=1e-9)
+    assert np.allclose(
+        array(matrix6_invert(system)), np.linalg.inv(m + 0.05 * array(d)), rtol=1e-9, atol=1e-9
+    )
+
+
+def test_equal_structures_share_their_functions():
+    """Whatever the numbers; another coupling, plane or number of strips makes another one."""
+    rng = np.random.default_rng(3)
+    tensor = np.zeros((6, 6, 6))
+    tensor[1, 1, 0] = 2.0
+    row = (1.0, 0.0, 0.1, 5)
+
+    def kick(couplings, strips):
+        term = make_damping(np.eye(6), random_damping(rng), rng.uniform(size=6), couplings, strips)
+        return term.kick
+
+    one = kick(tensor, [("sway", row)])
+    assert kick(3.0 * tensor, [("sway", (2.0, 0.3, 0.2, 5))]) is one
+    others = [
+        kick(tensor, ()),
+        kick(None, [("sway", row)]),
+        kick(tensor, [("heave", row)]),
+        kick(tensor, [("sway", (*row[:3], 6))]),
+        kick(tensor.transpose(0, 2, 1), [("sway", row)]),
+    ]
+    assert len({one, *others}) == 6

@@ -1,0 +1,62 @@
+"""Broad sweeps: run in CI and with `--sweeps`, left out of a plain `make test`.
+
+A sweep repeats a law over many vehicles, schemes or conditions, each of which must be compiled. Every law has at
+least one case that is no sweep.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterable
+
+import pytest
+
+REASON = "a sweep: runs in CI and with --sweeps"
+
+
+def sweep(cases: Iterable, *, plain: Collection) -> list:
+    """Return the cases of a parametrisation in their order, all but the plain ones marked as a sweep.
+
+    Args:
+        cases: values, or tuples of them.
+        plain: those among them that a plain run keeps.
+
+    Raises:
+        ValueError: one of `plain` is none of the cases, so that it would be kept nowhere.
+    """
+    cases = list(cases)
+    missing = [case for case in plain if case not in cases]
+    if missing or not plain:
+        raise ValueError(f"plain = {plain!r} must be some of the cases {cases}")
+    return [case if case in plain else _marked(case) for case in cases]
+
+
+def _marked(case):
+    values = case if isinstance(case, tuple) else (case,)
+    return pytest.param(*values, marks=pytest.mark.sweep)
+
+
+def pytest_addoption(parser) -> None:
+    """Declare `--sweeps`."""
+    parser.addoption("--sweeps", action="store_true", help="run the broad sweeps too, as CI does")
+
+
+def sweeps_wanted(config) -> bool:
+    """Whether sweeps run: in CI, with `--sweeps`, and where `-m` names them."""
+    return bool(os.environ.get("CI") or config.getoption("sweeps") or "sweep" in config.option.markexpr)
+
+
+def pytest_collection_modifyitems(config, items) -> None:
+    """Mark sweeps to be skipped unless they are wanted."""
+    if not sweeps_wanted(config):
+        for item in items:
+            if item.get_closest_marker("sweep"):
+                item.add_marker(pytest.mark.skip(reason=REASON))
+
+
+def pytest_terminal_summary(terminalreporter) -> None:
+    """Say how many sweeps were left out and how to run them, if any were."""
+    skipped = terminalreporter.stats.get("skipped", ())
+    count = sum(REASON in str(report.longrepr) for report in skipped)
+    if count:
+        terminalreporter.write_line(f"{count} sweeps were left out; `pytest --sweeps` runs them, as CI does")
