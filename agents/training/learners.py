@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
+import gymnasium as gym
+
 from dq_marine.agents.environments import make_environments
 from dq_marine.agents.settings import PPOSettings, SACSettings, TrainingSettings
 from dq_marine.agents.training.reward_sums import RewardSums
@@ -77,9 +79,11 @@ def make_model(settings: TrainingSettings, seed: int, tensorboard: Path) -> Mode
         "net_arch": list(settings.network.layers),
         "activation_fn": ACTIVATIONS[settings.network.activation],
     }
+    envs = make_training_envs(settings)
+    goals = isinstance(envs.observation_space, gym.spaces.Dict)
     common: dict[str, Any] = {
-        "policy": "MlpPolicy",
-        "env": make_training_envs(settings),
+        "policy": "MultiInputPolicy" if goals else "MlpPolicy",
+        "env": envs,
         "learning_rate": LinearSchedule(algorithm.learning_rate, algorithm.final_learning_rate),
         "gamma": algorithm.gamma,
         "ent_coef": algorithm.ent_coef,

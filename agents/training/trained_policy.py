@@ -49,9 +49,10 @@ class TrainedPolicy:
             ("observation", self._model.observation_space, env.observation_space),
             ("action", self._model.action_space, env.action_space),
         ):
-            if trained.shape != found.shape:
+            if _shape(trained) != _shape(found):
                 raise InvalidInputError(
-                    f"the policy was trained with {name} shape {trained.shape}, the environment has {found.shape}; "
+                    f"the policy was trained with {name} shape {_shape(trained)}, the environment has "
+                    f"{_shape(found)}; "
                     "fly it with the task and vehicle that it was trained with"
                 )
 
@@ -59,3 +60,10 @@ class TrainedPolicy:
         """Return the most likely action, shape (n,)."""
         action, _ = self._model.predict(self._normalisation.normalize_obs(observation), deterministic=True)
         return np.asarray(action, dtype=np.float32)
+
+
+def _shape(space: gym.Space[Any]) -> Any:
+    """Return the shape of a space, or of each part of one with goals."""
+    if isinstance(space, gym.spaces.Dict):
+        return {name: part.shape for name, part in space.items()}
+    return space.shape

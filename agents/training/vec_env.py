@@ -11,6 +11,7 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
+from dq_marine.agents.evaluation.metrics import reward_term_names
 from dq_marine.agents.training.vector_wrappers import check_ends, checked_wrappers
 from dq_marine.envs.vector.vector_env import MarineVectorEnv
 from dq_marine.errors import InvalidInputError
@@ -18,7 +19,7 @@ from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
     from stable_baselines3.common.vec_env import VecEnv
-    from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvStepReturn
+    from stable_baselines3.common.vec_env.base_vec_env import VecEnvIndices, VecEnvObs, VecEnvStepReturn
 
 
 class MarineVecEnv(VecEnv):
@@ -26,7 +27,7 @@ class MarineVecEnv(VecEnv):
 
     Where an episode ends, the info has all that a single environment's has, with `terminal_observation` and
     `TimeLimit.truncated`. The info of an environment that goes on has only what wrappers add to a step's infos, and not
-    to a reset's.
+    to a reset's; and of a task with goals the terms of the reward, which hindsight replay needs.
 
     Gymnasium's wrappers around the vector environment act on observations, rewards, actions, spaces and infos. A
     wrapper that changes observations has to change `infos["final_obs"]`, too. `get_attr`, `set_attr` and `env_method`
@@ -68,8 +69,9 @@ class MarineVecEnv(VecEnv):
         self._started = False
         self._names_at_reset: frozenset[str] = frozenset()
 
-    def reset(self) -> NDArray[np.float32]:
+    def reset(self) -> VecEnvObs:
         """Start an episode in every environment, with the seeds and options set before; they are used once."""
+        observations: VecEnvObs
         seeds, options = self._seeds, self._options
         alike = all(given == options[0] for given in options) if _comparable(options) else False
         if alike or not self._started:
@@ -81,7 +83,7 @@ class MarineVecEnv(VecEnv):
         self._started = True
         self._reset_seeds()
         self._reset_options()
-        return np.asarray(observations)
+        return observations
 
     def step_async(self, actions: NDArray[Any]) -> None:
         """Take the actions of `step_wait`."""
@@ -95,7 +97,7 @@ class MarineVecEnv(VecEnv):
         if self._wrappers:
             check_ends(dones, infos, self.observation_space)
             added = self._added_by_wrappers(infos)
-        reported: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
+        reported = self._reported(infos)
         ended = np.flatnonzero(dones).tolist()
         if ended:
             ends = _infos_at(infos["final_info"], ended)
@@ -150,6 +152,13 @@ class MarineVecEnv(VecEnv):
         every = range(self.num_envs)
         return [every[index] for index in self._get_indices(indices)]
 
+    def _reported(self, infos: dict[str, Any]) -> list[dict[str, Any]]:
+        """Return what is told of environments that go on: of a task with goals, what hindsight replay needs."""
+        if self.marine.single.observation_places is None:
+            return [{} for _ in range(self.num_envs)]
+        terms = {name: infos[name] for name in reward_term_names(infos)}
+        return _infos_at(terms, range(self.num_envs))
+
     def _added_by_wrappers(self, infos: dict[str, Any]) -> dict[str, Any]:
         """Return what wrappers added in this step; what infos have at a reset, too, tells of the episode begun."""
         names = infos.keys() - self._names_at_reset - _OF_ENDS
@@ -161,16 +170,15 @@ class MarineVecEnv(VecEnv):
         masks = [infos.get(f"_{name}", every) for name in infos if not name.startswith("_")]
         return np.flatnonzero(np.any(masks, axis=0)).tolist() if masks else []
 
-    def _reset_one_by_one(
-        self, seeds: list[int | None], options: list[dict[str, Any]]
-    ) -> NDArray[np.float32]:
+    def _reset_one_by_one(self, seeds: list[int | None], options: list[dict[str, Any]]) -> VecEnvObs:
         """Reset every environment with options of its own."""
+        observations: VecEnvObs
         for index in range(self.num_envs):
             mask = np.zeros(self.num_envs, np.bool_)
             mask[index] = True
             observations, infos = self.envs.reset(seed=seeds, options={**options[index], "reset_mask": mask})
             self.reset_infos[index] = _infos_at(infos, [index])[0]
-        return np.asarray(observations)
+        return observations
 
 
 def _comparable(options: list[dict[str, Any]]) -> bool:

@@ -91,13 +91,16 @@ def action_table(vehicle: Vehicle) -> TextTable:
 
 
 def observation_table(definition: TaskDefinition, vehicle: Vehicle) -> TextTable:
-    """Return what an observation consists of."""
-    settings = definition.checked_settings({}, vehicle)
+    """Return what an observation consists of, with the parts of one that shows goals."""
+    observed = definition.observations(definition.checked_settings({}, vehicle), vehicle)
     rows = [
-        (f"`{one.name}`", str(one.size), one.unit or "1", _plain(one.bound), one.meaning)
-        for one in definition.observations(settings, vehicle)
+        (f"`{one.name}`", str(one.size), one.unit or "1", _plain(one.bound), one.meaning) for one in observed
     ]
-    return TextTable("observation", ("name", "numbers", "unit", "bound", "meaning"), rows)
+    columns = ("name", "numbers", "unit", "bound", "meaning")
+    if definition.goal_reward is None:
+        return TextTable("observation", columns, rows)
+    parts = [(f"`{one.part}`",) for one in observed]
+    return TextTable("observation", ("part", *columns), [a + b for a, b in zip(parts, rows, strict=True)])
 
 
 def reward_table(definition: TaskDefinition) -> TextTable:

@@ -16,6 +16,8 @@ from dq_marine.checks import finite_number
 from dq_marine.envs.core.action_mapping import action_mapping_of
 from dq_marine.envs.core.currents import check_current
 from dq_marine.envs.core.definition import EpisodeContext, Observed, TaskDefinition
+from dq_marine.envs.core.goals import check_goals
+from dq_marine.envs.core.observation import places_of
 from dq_marine.envs.core.registry import arrived, task_named, tasks_suiting, travelling
 from dq_marine.envs.core.rewards import checked_extra_rewards
 from dq_marine.envs.core.start import at_origin, checked_options
@@ -49,6 +51,7 @@ class ComposedTask:
         pool: the vehicles that episodes fly: that of the settings, or those drawn from it.
         scene: what is integrated, with the pool's first vehicle.
         current_draw: what the current of an episode is drawn from.
+        observation_places: where the parts of an observation are among its numbers; None where it has no parts.
         time_varying: whether the weather changes, so that episodes begin at a time that is drawn.
         task: the formulas, for these actions and sensors.
         action_mapping: what an action does.
@@ -84,6 +87,7 @@ class ComposedTask:
         _check_parameters(
             definition, definition.parameters(own, EpisodeContext(chosen.flown, chosen.control_period, {}))
         )
+        check_goals(definition, definition.observations(own, chosen.flown))
         self.__dict__.update(
             definition=definition,
             settings=chosen,
@@ -132,8 +136,12 @@ class ComposedTask:
     @property
     def report_names(self) -> tuple[str, ...]:
         """What the numbers of `Episode.report` are called in `info`, up to the success."""
-        terms = (*self.definition.reward_names, *(term.name for term in self.extra_rewards))
-        return (*self.definition.metric_names, *(f"reward/{name}" for name in terms))
+        return (*self.definition.metric_names, *(f"reward/{name}" for name in self.reward_names))
+
+    @property
+    def reward_names(self) -> tuple[str, ...]:
+        """Names of all terms of the reward, added ones included."""
+        return (*self.definition.reward_names, *(term.name for term in self.extra_rewards))
 
     @property
     def base_parameters(self) -> StepParameters:
@@ -209,6 +217,7 @@ class ComposedTask:
         self.task = self.action_mapping.task(sensed)
         self._period_draws = sum(map(len, draws_of_period(self.scene.composition, self.task)))
         self._motion = make_motion(self.scene.composition)
+        self.observation_places = places_of(self.observations)
         self._report_names = self.report_names
         self._success_place = len(self._report_names)
         self._has_choice = self.pool.has_choice

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
 
 
+PARTS = ("observation", "achieved_goal", "desired_goal")
+"""Of an observation of a goal-conditioned task, as Gymnasium's `GoalEnv` and hindsight replay name them."""
+
+
 class Observed(NamedTuple):
     """Some numbers of an observation that belong together.
 
@@ -28,6 +32,7 @@ class Observed(NamedTuple):
         size: how many numbers.
         bound: their largest magnitude.
         meaning: one line for people.
+        part: which of `PARTS` they belong to; where all are of the first, the observation is a `Box`, else a `Dict`.
     """
 
     name: str
@@ -35,6 +40,7 @@ class Observed(NamedTuple):
     size: int
     bound: float
     meaning: str
+    part: str = PARTS[0]
 
 
 class Goal(NamedTuple):
@@ -98,6 +104,8 @@ class TaskDefinition:
         units: of the metrics, by name; for angles in radians "rad".
         tolerances: of some metrics: an episode is settled from when on all of them stay within.
         goal: (parameters, memory) -> the goal to be drawn.
+        goal_reward: (parameters, weights, achieved goal, desired goal) -> the term `goal` of the reward, with its
+            weight, of a task whose observation has goals among its parts: for `compute_reward` and hindsight replay.
         unsuitable: (vehicle) -> why the task cannot be done with it; None where it can.
         vehicle: the default one.
         control_period: the default one [s].
@@ -118,6 +126,7 @@ class TaskDefinition:
     units: Mapping[str, str] = field(default_factory=dict)
     tolerances: Mapping[str, float] = field(default_factory=dict)
     goal: Callable[[Any, Any], Goal | None] = no_goal
+    goal_reward: Callable[[Any, Any, Any, Any], float] | None = None
     unsuitable: Callable[[Vehicle], str | None] = suits_all
     vehicle: str = "bluerov2_heavy"
     control_period: float = 0.1

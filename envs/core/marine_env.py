@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Unpack
 
 import gymnasium as gym
@@ -21,6 +21,8 @@ from dq_marine.envs.core.beginning import begun_episode
 from dq_marine.envs.core.composed_task import ComposedTask
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.episode import Episode, restored_generator
+from dq_marine.envs.core.goals import goal_rewards
+from dq_marine.envs.core.observation import in_parts, observation_space
 from dq_marine.envs.core.refusal import integration_report
 from dq_marine.envs.core.start import as_chosen, drawn_uniforms
 from dq_marine.envs.core.view import EpisodeView, checked_render_mode
@@ -36,7 +38,7 @@ from dq_marine.task.start import CLOCK_SPAN, Drawn, beginning_draws, make_draw
 from dq_marine.vehicles import Vehicle
 from dq_marine.viewer.snapshot import Snapshot
 
-Observation = NDArray[np.float32]
+Observation = NDArray[np.float32] | dict[str, NDArray[np.float32]]
 Action = NDArray[np.float32]
 
 
@@ -47,7 +49,8 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     pitch, yaw, over the vehicle's limits; or with `actuation="thrusters"` the commands of the n channels of its
     actuators in the order of `Vehicle.channels`, each over its limit on that side. Beyond the box it saturates.
 
-    Observation: what `observations` lists, in that order; with sensors as measured, followed by what they show.
+    Observation: what `observations` lists, in that order; with sensors as measured, followed by what they show. Of a
+    task with goals it is a dictionary of "observation", "achieved_goal" and "desired_goal".
 
     `info` of `reset` and of every `step` has the same keys: the task's metrics, `reward/<name>` of each term of the
     reward, `is_success`, `current_ned`, `refused` (whether the integrator refused the step: then the episode ends, and
@@ -97,8 +100,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]
         self._view = EpisodeView(self)
         self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self.action_mapping.places),), np.float32)
-        bound = self.observation_bound
-        self.observation_space = gym.spaces.Box(-bound, bound, dtype=np.float32)
+        self.observation_space = observation_space(self.observation_bound, self.observation_places)
         self.fallback_substeps = 0
         self.refusal: dict[str, Any] | None = None
         self._episode: Episode | None = None
@@ -132,7 +134,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self._episode.clock = CLOCK_SPAN * self.np_random.random()
         self.refusal = None
         self._view.begin(self)
-        return self.observation, self._info(self._episode, refused=False)
+        return self._shown(self._episode), self._info(self._episode, refused=False)
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
@@ -182,7 +184,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         if self._view.wants_frames:
             self._view.show(self)
         info = self._info(episode, refused=status != ACCEPTED)
-        return episode.observation.copy(), reward, terminated != 0.0, False, info
+        return self._shown(episode), reward, terminated != 0.0, False, info
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return a picture, uint8 (height, width, 3), in mode "rgb_array"; None otherwise.
@@ -214,12 +216,33 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         """End whatever rendering started."""
         self._view.close()
 
+    def compute_reward(
+        self,
+        achieved_goal: NDArray[Any],
+        desired_goal: NDArray[Any],
+        info: Mapping[str, Any] | Sequence[Mapping[str, Any]],
+    ) -> Any:
+        """Return the reward of steps had they ended at other goals, for hindsight replay.
+
+        Args:
+            achieved_goal: of one step, or with a row for each of n.
+            desired_goal: likewise.
+            info: that of the step, or one for each: the terms of the reward besides the goal's are taken from it.
+
+        Returns:
+            The reward, or those of n steps, shape (n,).
+
+        Raises:
+            InvalidInputError: the task has no goals, shapes differ, a number is not finite, or an info lacks a term.
+        """
+        return goal_rewards(self, achieved_goal, desired_goal, info)
+
     # State
 
     @property
     def observation(self) -> Observation:
         """What the last `reset` or `step` returned."""
-        return self._running("observation").observation.copy()
+        return self._shown(self._running("observation"))
 
     @property
     def motion(self) -> Motion:
@@ -323,6 +346,11 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def _new_episode(self, parameters: EpisodeParameters, drawn: Drawn, number: int = 0) -> Episode:
         parts = (self.scene.composition, self.task, self.pool.parameters[number], parameters, drawn)
         return begun_episode(*parts, number, self.action_mapping.size)
+
+    def _shown(self, episode: Episode) -> Observation:
+        if self.observation_places is None:
+            return episode.observation.copy()
+        return in_parts(episode.observation, self.observation_places)
 
     def _info(self, episode: Episode, *, refused: bool) -> dict[str, Any]:
         numbers, success = episode.report, self._success_place

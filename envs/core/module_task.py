@@ -29,6 +29,7 @@ OPTIONAL = {
     "settings": "Settings",
     "fitted": "fitted",
     "goal": "goal",
+    "goal_reward": "goal_reward",
     "unsuitable": "unsuitable",
 }
 """Attributes of a `TaskDefinition` that a file may define, and their names there."""
@@ -40,8 +41,8 @@ def define_task(names: Mapping[str, Any], *, draws: int, **attributes: Any) -> T
     The file has the functions `start`, `observe`, `measure` and `reward`, and where it needs them `initial_memory`,
     `update_memory`, `terminated` and `succeeded`, as `dq_marine.task.protocol.Task` describes them; the named tuples
     `Metrics` and `Rewards`; the functions `parameters` and `observations`, and where it needs them `Settings`,
-    `fitted`, `goal` and `unsuitable`, as `TaskDefinition` describes them. The weights of the reward are the defaults of
-    `Weights`, or of `Rewards` where there is none.
+    `fitted`, `goal`, `goal_reward` and `unsuitable`, as `TaskDefinition` describes them. The weights of the reward are
+    the defaults of `Weights`, or of `Rewards` where there is none.
 
     Args:
         names: of the file: `globals()`.

@@ -30,6 +30,8 @@ class TravellingTask(NamedTuple):
 def register_task(definition: TaskDefinition, module: str | None = None) -> None:
     """Register a task: `gym.make` and `gym.make_vec` then know its id.
 
+    A module that is reloaded, or a cell of a notebook that is run again, replaces what it registered before.
+
     In a worker process that is started afresh, the module that calls this has to be imported, too:
     `gym.make("my_module:my/Task-v0")` does so, and so does an environment that is unpickled there.
 
@@ -38,13 +40,18 @@ def register_task(definition: TaskDefinition, module: str | None = None) -> None
         module: that calls this, by its dotted name; None for the one that defines the task's parameters.
 
     Raises:
-        InvalidInputError: another task has this id.
+        InvalidInputError: a task of another module has this id.
     """
+    module = module or definition.parameters.__module__
     known = _TASKS.get(definition.id)
     if known is not None and known != definition:
-        raise InvalidInputError(f"there is another task {definition.id!r}; give yours an id of its own")
+        if _MODULES[definition.id] != module:
+            raise InvalidInputError(
+                f"there is another task {definition.id!r}, of {_MODULES[definition.id]}; give yours an id of its own"
+            )
+        unregister_task(definition.id)
     _TASKS[definition.id] = definition
-    _MODULES[definition.id] = module or definition.parameters.__module__
+    _MODULES[definition.id] = module
     if definition.id not in gym.registry:
         gym.register(
             id=definition.id,
@@ -53,6 +60,17 @@ def register_task(definition: TaskDefinition, module: str | None = None) -> None
             max_episode_steps=definition.max_episode_steps,
             kwargs={"task": definition.id},
         )
+
+
+def unregister_task(identifier: str) -> None:
+    """Forget a task, and its id at Gymnasium. Environments that were made of it go on.
+
+    Raises:
+        InvalidInputError: there is none of this id.
+    """
+    task_named(identifier)
+    del _TASKS[identifier], _MODULES[identifier]
+    gym.registry.pop(identifier, None)
 
 
 def task_named(task: TaskDefinition | str) -> TaskDefinition:

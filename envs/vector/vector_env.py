@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -23,6 +22,7 @@ from dq_marine.backend.workers import Workers
 from dq_marine.checks import positive_integer
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.marine_env import MarineEnv
+from dq_marine.envs.core.observation import in_parts
 from dq_marine.envs.core.registry import task_named
 from dq_marine.envs.core.view import open_page, shape_of
 from dq_marine.envs.vector.lane_memory import FALLBACKS, LaneMemory
@@ -38,12 +38,11 @@ from dq_marine.envs.vector.vector_options import (
 )
 from dq_marine.errors import InvalidInputError
 from dq_marine.simulation.settings import VehicleLike
-from dq_marine.viewer.snapshot import Snapshot
 
 if TYPE_CHECKING:
     from dq_marine.envs.vector.lane_watch import LaneWatch
 
-Observations = NDArray[np.float32]
+Observations = NDArray[np.float32] | dict[str, NDArray[np.float32]]
 Flags = NDArray[np.bool_]
 StepResult = tuple[Observations, NDArray[np.float64], Flags, Flags, dict[str, Any]]
 
@@ -187,7 +186,8 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             casting="unsafe",
         )
         if self._watch is not None:
-            self._watch.offer(partial(self._snapshot, self._watch.index))
+            index = self._watch.index
+            self._watch.offer(lambda: self.at(index).snapshot())
         terminated, truncated = arrays.terminated[: self.num_envs], arrays.truncated[: self.num_envs]
         return (
             self._observations(),
@@ -384,13 +384,11 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self._lanes.commands[:, places] = given
 
     def _observations(self) -> Observations:
-        return self._given(self._memory.arrays.observations[: self.num_envs])
+        flat, places = self._memory.arrays.observations[: self.num_envs], self.single.observation_places
+        return self._given(flat) if places is None else in_parts(flat, places)
 
     def _given(self, array: NDArray[Any]) -> NDArray[Any]:
         return array.copy() if self.copy else array
-
-    def _snapshot(self, index: int) -> Snapshot:
-        return self.at(index).snapshot()
 
     def _need_reset(self, what: str) -> None:
         if not self._begun:

@@ -8,6 +8,7 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
+from dq_marine.envs.core.observation import in_parts
 from dq_marine.envs.core.refusal import integration_report
 from dq_marine.envs.vector.lane_memory import COMPLETED, RESIDUAL_SQUARED, SPEED_SQUARED, SPIN_SQUARED, STATUS
 from dq_marine.envs.vector.lane_singles import LaneSingles
@@ -61,8 +62,9 @@ class VectorInfos:
         if not ended.any():
             return infos
         observations = np.full(self._lanes.n, None, dtype=object)
+        flat, places = self._lanes.memory.arrays.final_observations, self._lanes.first.observation_places
         for index in np.flatnonzero(ended).tolist():
-            observations[index] = self._lanes.memory.arrays.final_observations[index].copy()
+            observations[index] = flat[index].copy() if places is None else in_parts(flat[index], places)
         infos |= {"final_obs": observations, "_final_obs": ended.copy()}
         return infos | {"final_info": self._reported(ended, refused, final=True), "_final_info": ended.copy()}
 

@@ -8,13 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import gymnasium as gym
 import pytest
 
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT
 from dq_marine.agents.keywords import differences, known_keywords, with_changes
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.envs.core.registry import register_task, task_named
+from dq_marine.envs.core.registry import register_task, task_named, unregister_task
 from dq_marine.errors import InvalidInputError
 
 
@@ -35,7 +34,7 @@ def other_task() -> Iterator[str]:
     definition = dataclasses.replace(task_named(DEFAULT_ENVIRONMENT.id), id="tests/Other-v0", settings=Own)
     register_task(definition)
     yield definition.id
-    gym.registry.pop(definition.id)
+    unregister_task(definition.id)
 
 
 def test_known_keywords_are_those_of_settings_and_task() -> None:
@@ -64,8 +63,8 @@ def test_a_module_may_register_the_task(tmp_path: Path, monkeypatch: pytest.Monk
     try:
         assert "start_radius" in known_keywords("my_task:my/Task-v0")
     finally:
-        gym.registry.pop("my/Task-v0", None)
         sys.modules.pop("my_task", None)
+    unregister_task("my/Task-v0")
 
 
 @pytest.mark.parametrize("identifier", ["Nothing-v0", "no_such_module:Mine-v0"])

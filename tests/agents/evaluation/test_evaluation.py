@@ -131,8 +131,8 @@ def test_a_flights_table_names_metrics_reward_terms_and_the_seed() -> None:
         r"depth error, start\s+│\s+1\.000 m",
         r"settled within 0\.05 m and 2 deg\s+│ after 0\.1 s",
         r"return\s+│\s+2\.0",
-        r"of it near\s+│\s+0\.8",
-        r"of it effort\s+│\s+-0\.8",
+        r"of which near\s+│\s+0\.8",
+        r"of which effort\s+│\s+-0\.8",
         r"seed\s+│\s+7",
     ):
         assert re.search(pattern, text), pattern
