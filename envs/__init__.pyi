@@ -4,6 +4,7 @@ from dq_marine.envs.core.definition import EpisodeContext as EpisodeContext
 from dq_marine.envs.core.definition import Goal as Goal
 from dq_marine.envs.core.definition import Observed as Observed
 from dq_marine.envs.core.definition import TaskDefinition as TaskDefinition
+from dq_marine.envs.core.goal_env import GoalMarineEnv as GoalMarineEnv
 from dq_marine.envs.core.marine_env import MarineEnv as MarineEnv
 from dq_marine.envs.core.module_task import define_task as define_task
 from dq_marine.envs.core.registry import register_task as register_task

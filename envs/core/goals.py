@@ -1,19 +1,11 @@
-"""Goals that an observation shows, and the reward of a step had another been asked for."""
+"""What belongs to goals in the definition of a task, checked."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
-from dq_marine.checks import finite_rows
 from dq_marine.envs.core.definition import PARTS, Observed, TaskDefinition
 from dq_marine.errors import InvalidInputError
-
-if TYPE_CHECKING:
-    from dq_marine.envs.core.composed_task import ComposedTask
 
 GOAL_TERM = "goal"
 """The reward's term that `goal_reward` gives."""
@@ -44,39 +36,3 @@ def check_goals(definition: TaskDefinition, observations: Sequence[Observed]) ->
             f"{definition.id} has a goal_reward, but {list(definition.reward_names)} for terms of the reward; name "
             f"the one that it gives {GOAL_TERM!r}"
         )
-
-
-def goal_rewards(
-    env: ComposedTask,
-    achieved_goal: NDArray[Any],
-    desired_goal: NDArray[Any],
-    info: Mapping[str, Any] | Sequence[Mapping[str, Any]],
-) -> Any:
-    """Return rewards at other goals; see `MarineEnv.compute_reward`."""
-    formula, places = env.definition.goal_reward, env.observation_places
-    if formula is None or places is None:
-        raise InvalidInputError(f"{env.definition.id} has no goals, so no rewards at other goals")
-    size = len(places["desired_goal"])
-    infos = [info] if isinstance(info, Mapping) else info
-    achieved, desired = (
-        finite_rows(name, given, len(infos), size)
-        for name, given in (("achieved_goal", achieved_goal), ("desired_goal", desired_goal))
-    )
-    parameters = env.episode_parameters({})
-    rewards = np.array(
-        [
-            formula(parameters.task, parameters.weights, tuple(here), tuple(there)) + _other_terms(env, one)
-            for here, there, one in zip(achieved.tolist(), desired.tolist(), infos, strict=True)
-        ]
-    )
-    return float(rewards[0]) if np.ndim(desired_goal) == 1 and isinstance(info, Mapping) else rewards
-
-
-def _other_terms(env: ComposedTask, info: Mapping[str, Any]) -> float:
-    names = [f"reward/{name}" for name in env.reward_names if name != GOAL_TERM]
-    missing = [name for name in names if name not in info]
-    if missing:
-        raise InvalidInputError(
-            f"info lacks {missing}; give the step's own, with HerReplayBuffer(copy_info_dict=True)"
-        )
-    return sum(float(info[name]) for name in names)

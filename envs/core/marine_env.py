@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, ClassVar, Unpack
 
 import gymnasium as gym
@@ -21,7 +21,6 @@ from dq_marine.envs.core.beginning import begun_episode
 from dq_marine.envs.core.composed_task import ComposedTask
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.episode import Episode, restored_generator
-from dq_marine.envs.core.goals import goal_rewards
 from dq_marine.envs.core.observation import in_parts, observation_space
 from dq_marine.envs.core.refusal import integration_report
 from dq_marine.envs.core.start import as_chosen, drawn_uniforms
@@ -50,7 +49,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     actuators in the order of `Vehicle.channels`, each over its limit on that side. Beyond the box it saturates.
 
     Observation: what `observations` lists, in that order; with sensors as measured, followed by what they show. Of a
-    task with goals it is a dictionary of "observation", "achieved_goal" and "desired_goal".
+    task with goals it is a dictionary of "observation", "achieved_goal" and "desired_goal", see `GoalMarineEnv`.
 
     `info` of `reset` and of every `step` has the same keys: the task's metrics, `reward/<name>` of each term of the
     reward, `is_success`, `current_ned`, `refused` (whether the integrator refused the step: then the episode ends, and
@@ -215,27 +214,6 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def close(self) -> None:
         """End whatever rendering started."""
         self._view.close()
-
-    def compute_reward(
-        self,
-        achieved_goal: NDArray[Any],
-        desired_goal: NDArray[Any],
-        info: Mapping[str, Any] | Sequence[Mapping[str, Any]],
-    ) -> Any:
-        """Return the reward of steps had they ended at other goals, for hindsight replay.
-
-        Args:
-            achieved_goal: of one step, or with a row for each of n.
-            desired_goal: likewise.
-            info: that of the step, or one for each: the terms of the reward besides the goal's are taken from it.
-
-        Returns:
-            The reward, or those of n steps, shape (n,).
-
-        Raises:
-            InvalidInputError: the task has no goals, shapes differ, a number is not finite, or an info lacks a term.
-        """
-        return goal_rewards(self, achieved_goal, desired_goal, info)
 
     # State
 

@@ -11,6 +11,7 @@ import numpy as np
 from dq_marine.backend.lane_type import Lanes
 from dq_marine.backend.pcg64 import fill_seeded, state_of, words_of
 from dq_marine.envs.core.definition import TaskDefinition
+from dq_marine.envs.core.goal_env import GoalMarineEnv
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.envs.vector.lane_memory import LaneMemory
 from dq_marine.errors import InvalidInputError
@@ -140,19 +141,20 @@ def made_singles(
             be recorded.
         VehicleFileError: a vehicle file is wrong.
     """
+    made = MarineEnv if definition.goal_reward is None else GoalMarineEnv
     if arguments.pop("record", False):
         raise InvalidInputError(
             "record = True; a vector environment records nothing, make a single one for that"
         )
     if not isinstance(vehicle, list | tuple):
-        return [MarineEnv(definition, vehicle, **arguments)]
+        return [made(definition, vehicle, **arguments)]
     if arguments.get("randomise") is not None:
         raise InvalidInputError(
             "a list of vehicles and randomise both say what each environment flies; give one of them"
         )
     if len(vehicle) != n:
         raise InvalidInputError(f"{len(vehicle)} vehicles for {n} environments; give one for each")
-    singles = [MarineEnv(definition, one, **arguments) for one in vehicle]
+    singles = [made(definition, one, **arguments) for one in vehicle]
     first = singles[0]
     for index, single in enumerate(singles):
         same_terms = single.scene.composition == first.scene.composition
