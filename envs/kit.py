@@ -1,4 +1,7 @@
-"""What the file of a task needs from this package, in one place."""
+"""What the file of a task needs from this package, in one place.
+
+Import functions by name, not through this module: what is compiled finds them by the names they are called by.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,7 @@ from dq_marine.algebra.quaternion import (
     rotate_inverse,
 )
 from dq_marine.algebra.selection import select
-from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.spatial import ZERO, Spatial
 from dq_marine.algebra.vector3 import (
     Vector3,
     add,
@@ -35,6 +38,7 @@ from dq_marine.task.starts import SLOW_START_DRAWS, make_walk, slow_start, symme
 __all__ = [
     "SLOW_START_DRAWS",
     "VELOCITY",
+    "ZERO",
     "EpisodeContext",
     "Goal",
     "Motion",

@@ -35,7 +35,11 @@ from dq_marine.envs.kit import (
     symmetric3,
 )
 
-CENTRE, WIDTH, REACH = (0.0, 0.0, 10.0), 3.0, 20.0  # of the starts and goals [m]; bound of what is observed [m]
+CENTRE, WIDTH, REACH = (
+    (0.0, 0.0, 10.0),
+    3.0,
+    20.0,
+)  # of the starts and goals [m]; bound of what is observed [m]
 
 
 class Parameters(NamedTuple):
@@ -132,7 +136,9 @@ def main(steps: int = 2000) -> None:
         seed=0,
     )
     model.learn(steps)
-    print("learned from", model.num_timesteps, "steps, and from as if they had been meant to end where they did")
+    print(
+        "learned from", model.num_timesteps, "steps, and from as if they had been meant to end where they did"
+    )
     env = gym.make(ID)
     seen, _ = env.reset(seed=0)
     for _ in range(100):

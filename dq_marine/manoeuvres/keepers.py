@@ -70,7 +70,7 @@ class LevelPlanesman:
         pitch_inertia: M55 [kg m^2].
         depth_frequency: of depth control [rad/s].
         mass: M33 [kg].
-        net_weight: W - B, loads included [N].
+        net_weight: W - B, payloads included [N].
     """
 
     frequency: float
@@ -134,5 +134,5 @@ def planesman_of(vehicle: Vehicle, speed: float) -> Planesman:
     length, pitch_inertia = vehicle.dimensions.length, float(inertia[4])
     if vehicle.wrench_limits[2] == 0.0:
         return PitchingPlanesman(frequency, pitch_inertia, length)
-    net_weight = vehicle.weight + vehicle.load_weight - vehicle.buoyant_force
+    net_weight = vehicle.weight + vehicle.payload_weight - vehicle.buoyant_force
     return LevelPlanesman(frequency, pitch_inertia, speed / length, float(inertia[2]), net_weight)

@@ -34,11 +34,11 @@ class LinearMode:
 def stiffness_matrix(vehicle: Vehicle) -> Array:
     """Return G, upright: restoring wrench -G eta of small motions, Fossen's order, shape (6, 6).
 
-    Of a vessel that floats, its waterplane's and its loads'. Under water, a small turn dphi moves "down" by d x dphi in
-    the body frame, and with it the righting moment arm x d.
+    Of a vessel that floats, its waterplane's and its payloads'. Under water, a small turn dphi moves "down" by d x dphi
+    in the body frame, and with it the righting moment arm x d.
     """
     matrix = np.zeros((6, 6))
-    waterplane, arm = vehicle.waterplane_stiffness, vehicle.load_arm
+    waterplane, arm = vehicle.waterplane_stiffness, vehicle.payload_moment
     if waterplane is None:
         arm = arm + vehicle.restoring_arm
     else:
@@ -48,11 +48,11 @@ def stiffness_matrix(vehicle: Vehicle) -> Array:
 
 
 def rest_of(vehicle: Vehicle) -> Array:
-    """Return heave [m], roll and pitch [rad] at rest, shape (3,): what loads do to a vessel that floats."""
+    """Return heave [m], roll and pitch [rad] at rest, shape (3,): what payloads do to a vessel that floats."""
     if vehicle.hydrostatics is None:
         return np.zeros(3)
-    x, y, _ = vehicle.load_arm
-    return np.linalg.solve(stiffness_matrix(vehicle)[2:5, 2:5], np.array([vehicle.load_weight, y, -x]))
+    x, y, _ = vehicle.payload_moment
+    return np.linalg.solve(stiffness_matrix(vehicle)[2:5, 2:5], np.array([vehicle.payload_weight, y, -x]))
 
 
 def linear_mode(vehicle: Vehicle, axis: int) -> LinearMode | None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from dq_marine.algebra.dual_quaternion import pose_from_parts
 from dq_marine.algebra.nesting import nested
-from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.spatial import ZERO, Spatial
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.water import Water
 from dq_marine.physics.branching import branching_pose_force, branching_velocity_force
@@ -85,8 +85,7 @@ def checked_force(force: ForceTerm) -> ForceTerm:
             f"forces has {force!r}; give dq_marine.physics.term.ForceTerm(name, function, parameters)"
         )
     pose = pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    rest = Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    arguments = (pose, rest, 0.0) if force.uses_velocity else (pose, 0.0)
+    arguments = (pose, ZERO, 0.0) if force.uses_velocity else (pose, 0.0)
     try:
         wrench = force.function(force.parameters, *arguments)
         finite = bool(np.isfinite([*wrench.angular, *wrench.linear]).all())

@@ -28,7 +28,7 @@ from dq_marine.physics.fields import (
     Vector6,
 )
 from dq_marine.physics.gravity import checked_gravity
-from dq_marine.physics.hydrostatics.tables import HullBox, Hydrostatics, Load
+from dq_marine.physics.hydrostatics.tables import HullBox, Hydrostatics, Payload
 from dq_marine.physics.matrices import skew
 from dq_marine.physics.waves.radiation import RadiationTable
 from dq_marine.vehicles.checks.plausibility import check_vehicle
@@ -127,7 +127,7 @@ class Vehicle(Table):
         fins: rudders and planes.
         hydrostatics: of a vessel that floats; None for one that is under water altogether.
         hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
-        loads: weights that act besides.
+        payloads: weights that act besides.
         radiation: added mass and damping by frequency, for the forces of seas; a file names a CSV file beside it.
         gravity: g [m/s^2], for weight and buoyancy, and for the lengths of waves; a stiffness in N/m holds for it.
     """
@@ -148,7 +148,7 @@ class Vehicle(Table):
     fins: tuple[Fin, ...] = ()
     hydrostatics: Hydrostatics | None = None
     hull: tuple[HullBox, ...] = ()
-    loads: tuple[Load, ...] = ()
+    payloads: tuple[Payload, ...] = ()
     radiation: RadiationTable | None = None
     gravity: float = GRAVITY
 
@@ -160,8 +160,8 @@ class Vehicle(Table):
     def in_gravity(self, gravity: float) -> Vehicle:
         """Return the vehicle under another gravity, or itself if it is the same.
 
-        Weight, loads and buoyancy change with it, and so does a stiffness that its file has in N/m. Forces of actuators
-        and tables by frequency stay as they are.
+        Weight, payloads and buoyancy change with it, and so does a stiffness that its file has in N/m. Forces of
+        actuators and tables by frequency stay as they are.
 
         Args:
             gravity: g [m/s^2].
@@ -205,14 +205,14 @@ class Vehicle(Table):
         return 0.0 if self.hydrostatics is None else self.hydrostatics.equilibrium_depth
 
     @property
-    def load_weight(self) -> float:
-        """Weight of all loads [N]."""
-        return self.gravity * sum(load.mass for load in self.loads)
+    def payload_weight(self) -> float:
+        """Weight of all payloads [N]."""
+        return self.gravity * sum(payload.mass for payload in self.payloads)
 
     @property
-    def load_arm(self) -> NDArray[np.float64]:
-        """First moment of the loads' weights about the body origin [N m], shape (3,)."""
-        moments = [load.mass * np.array(load.position) for load in self.loads]
+    def payload_moment(self) -> NDArray[np.float64]:
+        """First moment of the payloads' weights about the body origin [N m], shape (3,)."""
+        moments = [payload.mass * np.array(payload.position) for payload in self.payloads]
         return np.asarray(self.gravity * np.sum([np.zeros(3), *moments], axis=0))
 
     @property

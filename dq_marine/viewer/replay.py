@@ -16,7 +16,7 @@ from dq_marine.util.files import write_whole
 from dq_marine.viewer.libraries import meshcat_page_folder
 from dq_marine.viewer.placement import Placement
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
-from dq_marine.viewer.transport.messages import Command, set_animation, set_transform
+from dq_marine.viewer.transport.messages import Message, set_animation, set_transform
 from dq_marine.viewer.transport.pages import REPLAY_PAGE
 from dq_marine.viewer.transport.three_json import Json, packed_floats
 from dq_marine.viewer.world.drawing import JUMPING_PATHS, Drawing, checked_floor_depth, floor_below
@@ -56,12 +56,12 @@ def save_replay(
     times = _checked_times(snapshots)
     if floor_depth is None:
         floor_depth = floor_below(snapshots, shape)
-    commands = _commands(snapshots, times, Drawing(shape, checked_floor_depth(floor_depth)))
+    messages = _messages(snapshots, times, Drawing(shape, checked_floor_depth(floor_depth)))
     page = REPLAY_PAGE.substitute(
         title=html.escape(title),
         # A script ends at the first closing tag, wherever that stands.
         meshcat=_meshcat_script().replace("</script", "<\\/script"),
-        commands=json.dumps([base64.b64encode(c.packed()).decode() for c in commands]),
+        messages=json.dumps([base64.b64encode(c.packed()).decode() for c in messages]),
         times=json.dumps(times.tolist()),
     )
     write_whole(target, page)
@@ -90,20 +90,20 @@ def _checked_times(snapshots: Sequence[Snapshot]) -> FloatArray:
     return times
 
 
-def _commands(snapshots: Sequence[Snapshot], times: FloatArray, drawing: Drawing) -> list[Command]:
+def _messages(snapshots: Sequence[Snapshot], times: FloatArray, drawing: Drawing) -> list[Message]:
     """Everything the page has to do: draw, place, animate."""
     frames = [drawing.placements(snapshot) for snapshot in snapshots]
-    commands = drawing.scenery(snapshots[0])
-    commands.append(draw_trail(np.array([snapshot.position_ned for snapshot in snapshots])))
-    commands += [set_transform(path, placement) for path, placement in frames[0].items()]
+    messages = drawing.scenery(snapshots[0])
+    messages.append(draw_trail(np.array([snapshot.position_ned for snapshot in snapshots])))
+    messages += [set_transform(path, placement) for path, placement in frames[0].items()]
     clips = [
         {"path": path, "clip": _clip(path, [frame[path] for frame in frames], times)}
         for path in frames[0]
         if any(frame[path] != frames[0][path] for frame in frames)
     ]
     if clips:
-        commands.append(set_animation(clips, play=True))
-    return commands
+        messages.append(set_animation(clips, play=True))
+    return messages
 
 
 def _clip(path: str, placements: Sequence[Placement], times: FloatArray) -> Json:

@@ -97,7 +97,7 @@ def action_mapping_of(scene: Scene) -> ActionMapping:
     return WrenchMapping(scene.vehicle.wrench_limits)
 
 
-def commanded(mapping: ActionMapping, action: Any) -> NDArray[np.float64]:
+def whole_action(mapping: ActionMapping, action: Any) -> NDArray[np.float64]:
     """Return an action as compiled code takes it, not saturated yet: the compiled code does that.
 
     Raises:
@@ -111,6 +111,6 @@ def commanded(mapping: ActionMapping, action: Any) -> NDArray[np.float64]:
         raise InvalidInputError(f"action has shape {given.shape}; give shape {mapping.places.shape}")
     if mapping.size == given.size:
         return given
-    command = np.zeros(mapping.size)
-    command[mapping.places] = given
-    return command
+    whole = np.zeros(mapping.size)
+    whole[mapping.places] = given
+    return whole

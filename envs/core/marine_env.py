@@ -16,7 +16,7 @@ from dq_marine.algebra.spatial import to_fossen
 from dq_marine.algebra.vector3 import dot
 from dq_marine.backend.control_period import ACTION_NOT_FINITE
 from dq_marine.backend.packing import unpack
-from dq_marine.envs.core.action_mapping import commanded
+from dq_marine.envs.core.action_mapping import whole_action
 from dq_marine.envs.core.beginning import begun_episode
 from dq_marine.envs.core.composed_task import ComposedTask
 from dq_marine.envs.core.definition import TaskDefinition
@@ -150,14 +150,14 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             ResetNeeded: before the first reset.
         """
         episode = self._running("step")
-        command = commanded(self.action_mapping, action)
-        uniforms = drawn_uniforms(self.np_random, self._period_draws, command)
+        whole = whole_action(self.action_mapping, action)
+        uniforms = drawn_uniforms(self.np_random, self._period_draws, whole)
         status, completed, fallbacks, residual_squared, reward, terminated = self._compiled(
             episode.parameters,
             episode.episode_parameters,
             episode.state,
             episode.memory,
-            command,
+            whole,
             episode.observation,
             episode.report,
             episode.periods * self._period + episode.clock,
@@ -168,7 +168,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             raise InvalidInputError(
                 f"action = {np.asarray(action).tolist()} is not finite; give finite numbers"
             )
-        episode.action = command
+        episode.action = whole
         episode.periods += 1
         if fallbacks:
             self.fallback_substeps += fallbacks

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.algebra.spatial import Spatial, from_fossen, to_fossen
+from dq_marine.algebra.spatial import ZERO, from_fossen, to_fossen
 from dq_marine.checks import finite_array, unit_quaternion
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.protocol import Start
@@ -20,8 +20,7 @@ START_OPTIONS = {"position": 3, "quaternion": 4, "velocity": 6, "current": 3}
 
 def at_origin(task_draws: int, sensing_draws: int) -> Drawn:
     """Return a start at the world's origin, at rest in still water, with so many uniforms for task and sensors."""
-    rest = Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    start = Start((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), rest)
+    start = Start((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), ZERO)
     return Drawn(start, (0.0, 0.0, 0.0), (0.0,) * task_draws, (0.0,) * sensing_draws)
 
 
@@ -45,12 +44,12 @@ NO_UNIFORMS = np.zeros(0)
 
 
 def drawn_uniforms(
-    random: np.random.Generator, count: int, command: NDArray[np.float64]
+    random: np.random.Generator, count: int, action: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return uniform random numbers for a control period; none are drawn for a command that will be refused."""
+    """Return uniform random numbers for a control period; none are drawn for an action that will be refused."""
     if count == 0:
         return NO_UNIFORMS
-    return random.random(count) if np.isfinite(command).all() else np.zeros(count)
+    return random.random(count) if np.isfinite(action).all() else np.zeros(count)
 
 
 def checked_options(options: dict[str, Any] | None, own: Mapping[str, int]) -> dict[str, NDArray[np.float64]]:

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from dq_marine.envs.kit import (
     SLOW_START_DRAWS,
     VELOCITY,
+    ZERO,
     EpisodeContext,
     Goal,
     Motion,
     Observed,
     Quaternion,
     Situation,
-    Spatial,
     Start,
     Vector3,
     add_scaled,
@@ -155,7 +155,7 @@ class Rewards(NamedTuple):
 def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     """Return a start within the start radius: any heading, moderate tilt, slow; one in ten at the goal, at rest."""
     if uniforms[0] < AT_GOAL:
-        return Start(own.position_ned, own.attitude, Spatial((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+        return Start(own.position_ned, own.attitude, ZERO)
     return slow_start(own.position_ned, own.start_radius, own.start_height, uniforms, 1)
 
 

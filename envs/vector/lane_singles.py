@@ -28,7 +28,7 @@ class LaneSingles:
         first: the single environment that stands for all, or for the first.
         memory: of all.
         seeds: of the environments, None where there was none yet.
-        commands: actions of the last control period as compiled code takes them, shape (n, `ActionMapping.size`), not
+        actions: those of the last control period as compiled code takes them, shape (n, `ActionMapping.size`), not
             saturated.
         fallbacks: substeps that plain Newton did not solve, so far, shape (n,).
     """
@@ -41,7 +41,7 @@ class LaneSingles:
         self.first = singles[0]
         self.memory = LaneMemory(singles, n, lanes)
         self.seeds: list[int | None] = [None] * n
-        self.commands = np.zeros((n, self.first.action_mapping.size))
+        self.actions = np.zeros((n, self.first.action_mapping.size))
         self.fallbacks = np.zeros(n, np.int64)
 
     def seed(self, seeds: Sequence[int | None], wanted: Sequence[int]) -> None:
@@ -76,7 +76,7 @@ class LaneSingles:
         generator.bit_generator.state = state_of(self.memory.arrays.generators[index])
         episode = self.memory.episode(index)
         if episode.periods:
-            episode.action = np.clip(self.commands[index], -1.0, 1.0)
+            episode.action = np.clip(self.actions[index], -1.0, 1.0)
         single.adopt(episode, generator, self.seeds[index])
         single.fallback_substeps = int(self.fallbacks[index])
         return single
@@ -87,7 +87,7 @@ class LaneSingles:
         result = getattr(single, name)(*args, **kwargs)
         self.memory.set_episode(index, single.episode)
         self._set_generator(index, single.np_random)
-        self.commands[index] = single.episode.action
+        self.actions[index] = single.episode.action
         self.fallbacks[index] = single.fallback_substeps
         return result
 

@@ -174,7 +174,7 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self._workers.run(
             self._period,
             arrays,
-            self._lanes.commands,
+            self._lanes.actions,
             self.single.control_period,
             self.single.substeps,
             float(self.max_episode_steps),
@@ -336,7 +336,7 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
     @property
     def bytes_per_environment(self) -> float:
         """Memory held for each environment."""
-        return self._memory.bytes_per_environment + self._lanes.commands.nbytes / self.num_envs
+        return self._memory.bytes_per_environment + self._lanes.actions.nbytes / self.num_envs
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what cannot travel: compiled code and threads."""
@@ -381,7 +381,7 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         """Check the actions and put them where compiled code takes them."""
         places = self.single.action_mapping.places
         given = checked_actions(actions, (self.num_envs, len(places)))
-        self._lanes.commands[:, places] = given
+        self._lanes.actions[:, places] = given
 
     def _observations(self) -> Observations:
         flat, places = self._memory.arrays.observations[: self.num_envs], self.single.observation_places

@@ -28,7 +28,7 @@ ACTIONS = np.random.default_rng(1).uniform(-1.0, 1.0, (12, 6)).astype(np.float32
 
 def test_a_dictionary_is_what_it_says():
     sea, drift, wind = weather_of(
-        [SEA | {"drift": True}, {"kind": "wind", "speed": 5.0, "direction_from": 1.0, "windage": {
+        [SEA | {"slow_drift": True}, {"kind": "wind", "speed": 5.0, "direction_from": 1.0, "windage": {
             "frontal_area": 1.0, "lateral_area": 2.0, "length": 3.0, "height": 4.0}}]
     )  # fmt: skip
     expected = Sea(Jonswap(1.0, 5.0), 0.4, components=7, seed=2)

@@ -33,8 +33,8 @@ def test_what_is_weighed_and_what_floats_goes_with_it(name):
     for number in (
         "buoyant_force",
         "specific_weight",
-        "load_weight",
-        "load_arm",
+        "payload_weight",
+        "payload_moment",
         "restoring_arm",
         "waterplane_stiffness",
     ):

@@ -93,7 +93,7 @@ seas = st.fixed_dictionaries(
         "direction": st.floats(-3.0, 3.0),
         "components": st.integers(1, 20),
         "seed": st.integers(0, 1000),
-        "drift": st.booleans(),
+        "slow_drift": st.booleans(),
     }
 )
 winds = st.fixed_dictionaries(

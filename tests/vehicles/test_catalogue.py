@@ -120,7 +120,7 @@ def test_otter_has_the_published_numbers():
     linear = (24.4 * g / 3.0864, m[1, 1], *relative, m[5, 5])
     assert np.allclose(np.diag(vehicle.linear_damping), linear, rtol=1e-8)
     assert vehicle.quadratic_damping[5] == pytest.approx(10.0 * m[5, 5])
-    assert [(load.mass, load.position) for load in vehicle.loads] == [(25.0, (0.05, 0.0, -0.35))]
+    assert [(payload.mass, payload.position) for payload in vehicle.payloads] == [(25.0, (0.05, 0.0, -0.35))]
 
 
 def test_osv83_has_the_published_numbers():

@@ -154,6 +154,6 @@ def test_trail_forgets_the_oldest_and_skips_the_nearest() -> None:
     assert taken == [True, False, True, False, True]
     for i in range(2 * LONGEST):
         trail.extend(np.array([float(i), 5.0, 0.0]))
-    points = trail.command().content["object"]["geometries"][0]["data"]["attributes"]["position"]["array"]
+    points = trail.message().content["object"]["geometries"][0]["data"]["attributes"]["position"]["array"]
     drawn = np.frombuffer(points.data, dtype="<f4").reshape(-1, 3)
     assert_allclose(drawn[:, 0], np.arange(LONGEST, 2 * LONGEST))

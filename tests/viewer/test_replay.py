@@ -64,8 +64,8 @@ def page(replay: Path) -> Iterator[Page]:
 
 
 def commands_in(path: Path) -> list[dict[str, Any]]:
-    """The commands that a replay carries out, in order."""
-    found = re.search(r"const commands = (\[.*\]);", path.read_text(encoding="utf-8"))
+    """The messages that a replay carries out, in order."""
+    found = re.search(r"const messages = (\[.*\]);", path.read_text(encoding="utf-8"))
     assert found is not None
     return [umsgpack.unpackb(base64.b64decode(command)) for command in json.loads(found[1])]
 

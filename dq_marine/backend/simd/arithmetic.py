@@ -19,8 +19,6 @@ from dq_marine.backend.lane_type import Lanes, as_lanes, extract, is_scalar
 NUMBERS = (types.Float, types.Integer)
 CONDITIONS = (types.Boolean,)
 
-Emit = Callable[[Any, Lanes, Any, Any], Any]
-
 
 def fit(args: tuple[types.Type, ...], of: tuple[type[types.Type], ...]) -> bool:
     """Whether operands are lanes of one type, of one of some kinds of numbers, and scalars that these can hold."""

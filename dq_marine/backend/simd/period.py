@@ -142,11 +142,11 @@ def compiled_begin(composition: Composition, task: EpisodeTask, layout: PeriodLa
 
     Blocks first <= k < last; `wanted` holds a bool for every lane.
     """
-    loads, stores = _Loads(layout), _Stores(layout)
-    load_parameters, load_episode, load_state = loads.parameters, loads.episode, loads.state
-    load_memory, load_flags = loads.memory, loads.flags
-    store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
-    store_episode, renew_vehicle = stores.episode, make_renew_vehicle(layout.pool, layout.lanes)
+    readers, writers = _Readers(layout), _Writers(layout)
+    load_parameters, load_episode, load_state = readers.parameters, readers.episode, readers.state
+    load_memory, load_flags = readers.memory, readers.flags
+    store_state, store_memory, store_parameters = writers.state, writers.memory, writers.parameters
+    store_episode, renew_vehicle = writers.episode, make_renew_vehicle(layout.pool, layout.lanes)
     begin_one, motion_of = make_begin_one(composition, task, layout.time_varying), make_motion(composition)
     observe, first_report = task.observe, make_first_report(task)
     velocity = composition.water.velocity
@@ -199,13 +199,13 @@ def compiled_period(
     `actions` has a row for every environment, saturated here; `period` [s] is divided into `steps`; an
     episode is truncated after `most_periods`. `renewal` is `renew_at_next_step` or `renew_at_same_step`.
     """
-    loads, stores = _Loads(layout), _Stores(layout)
-    load_parameters, load_episode, load_state = loads.parameters, loads.episode, loads.state
-    load_memory, load_flags, load_numbers = loads.memory, loads.flags, loads.numbers
+    readers, writers = _Readers(layout), _Writers(layout)
+    load_parameters, load_episode, load_state = readers.parameters, readers.episode, readers.state
+    load_memory, load_flags, load_numbers = readers.memory, readers.flags, readers.numbers
     size = action_size(composition)
     load_actions, saturated = make_load_rows(layout.lanes, size), make_saturated(size)
-    store_state, store_memory, store_parameters = stores.state, stores.memory, stores.parameters
-    store_episode, store_outcome = stores.episode, stores.outcome
+    store_state, store_memory, store_parameters = writers.state, writers.memory, writers.parameters
+    store_episode, store_outcome = writers.episode, writers.outcome
     renew_vehicle = make_renew_vehicle(layout.pool, layout.lanes)
     control_period = make_control_period(composition, task)
     begin_one, motion_of = make_begin_one(composition, task, layout.time_varying), make_motion(composition)
@@ -288,7 +288,7 @@ def compiled_period(
     return compile_function(period_blocks, layout.key, apart=(composition.fallback,))
 
 
-class _Loads:
+class _Readers:
     """Readers of a layout, for compiled code."""
 
     def __init__(self, layout: PeriodLayout) -> None:
@@ -300,7 +300,7 @@ class _Loads:
         self.numbers = make_load_column(layout.lanes)
 
 
-class _Stores:
+class _Writers:
     """Writers of a layout, for compiled code."""
 
     def __init__(self, layout: PeriodLayout) -> None:

@@ -63,8 +63,8 @@ def hydrostatic_terms(vehicle: Vehicle, kind: str) -> tuple[ForceTerm, ...]:
 
 def submerged_terms(vehicle: Vehicle) -> tuple[ForceTerm, ...]:
     """Return net weight and righting moment of a vehicle under water."""
-    excess = vehicle.weight - vehicle.buoyant_force + vehicle.load_weight
-    arm = vehicle.restoring_arm + vehicle.load_arm
+    excess = vehicle.weight - vehicle.buoyant_force + vehicle.payload_weight
+    arm = vehicle.restoring_arm + vehicle.payload_moment
     if abs(excess) <= NEUTRAL_TOLERANCE * vehicle.weight:
         excess = 0.0
     if np.abs(arm).max() <= NEUTRAL_TOLERANCE * vehicle.weight * vehicle.dimensions.length:
@@ -73,24 +73,24 @@ def submerged_terms(vehicle: Vehicle) -> tuple[ForceTerm, ...]:
 
 
 def floating_terms(vehicle: Vehicle, hydrostatics: Hydrostatics) -> tuple[ForceTerm, ...]:
-    """Return the restoring force of a vessel's waterplane, and of its loads."""
+    """Return the restoring force of a vessel's waterplane, and of its payloads."""
     stiffness = hydrostatics.stiffness_about_origin(vehicle.specific_weight, vehicle.buoyant_force)
     symmetric = matrix3(0.5 * (stiffness + stiffness.T))
     waterplane = WaterplaneRestoring(symmetric, hydrostatics.equilibrium_depth)
     term = ForceTerm("waterplane restoring", WATERPLANE_FORCES[hydrostatics.force_axes], waterplane)
-    return (term, *restoring_terms(vehicle.load_weight, vehicle.load_arm))
+    return (term, *restoring_terms(vehicle.payload_weight, vehicle.payload_moment))
 
 
 def hull_terms(vehicle: Vehicle) -> tuple[ForceTerm, ...]:
     """Return weight, and the buoyancy of each box of the hull."""
-    arm = vehicle.weight * np.array(vehicle.rigid_body.center_of_mass) + vehicle.load_arm
+    arm = vehicle.weight * np.array(vehicle.rigid_body.center_of_mass) + vehicle.payload_moment
     boxes = [
         ForceTerm(
             f"buoyancy of hull box {number}", make_box_buoyancy(*cells_of(box)), columns_of(vehicle, box)
         )
         for number, box in enumerate(vehicle.hull)
     ]
-    return (*restoring_terms(vehicle.weight + vehicle.load_weight, arm), *boxes)
+    return (*restoring_terms(vehicle.weight + vehicle.payload_weight, arm), *boxes)
 
 
 def columns_of(vehicle: Vehicle, box: HullBox) -> Columns:

@@ -1,4 +1,4 @@
-"""Checks of what makes a vessel float: stiffness, weight against buoyancy, hull and loads."""
+"""Checks of what makes a vessel float: stiffness, weight against buoyancy, hull and payloads."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def check_floating(vehicle: Vehicle) -> None:
     _check_stiffness(vehicle)
     _check_waterplane(vehicle)
     _check_hull(vehicle)
-    _check_loads(vehicle)
+    _check_payloads(vehicle)
     _check_draft(vehicle)
 
 
@@ -96,21 +96,21 @@ def _check_hull(vehicle: Vehicle) -> None:
         )
 
 
-def _check_loads(vehicle: Vehicle) -> None:
+def _check_payloads(vehicle: Vehicle) -> None:
     reach = max(vehicle.dimensions.length, vehicle.dimensions.width, vehicle.dimensions.height)
-    for number, load in enumerate(vehicle.loads):
-        if load.mass > vehicle.rigid_body.mass:
+    for number, payload in enumerate(vehicle.payloads):
+        if payload.mass > vehicle.rigid_body.mass:
             raise Implausible(
-                f"loads.{number}.mass",
-                f"{load.mass:.6g} kg",
+                f"payloads.{number}.mass",
+                f"{payload.mass:.6g} kg",
                 f"it is more than the vehicle's own, {vehicle.rigid_body.mass:.6g} kg",
-                "give it in kg; a load's mass is part of rigid_body.mass",
+                "give it in kg; a payload's mass is part of rigid_body.mass",
             )
-        if float(np.linalg.norm(load.position)) > reach:
+        if float(np.linalg.norm(payload.position)) > reach:
             raise Implausible(
-                f"loads.{number}.position",
-                load.position,
-                f"it lies {np.linalg.norm(load.position):.3g} m from the origin of a vehicle {reach:.3g} m long",
+                f"payloads.{number}.position",
+                payload.position,
+                f"it lies {np.linalg.norm(payload.position):.3g} m from the origin of a vehicle {reach:.3g} m long",
                 "give positions in m from the body origin",
             )
 

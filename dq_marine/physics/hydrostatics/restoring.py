@@ -40,7 +40,7 @@ def restoring_modes(vehicle: Vehicle) -> RestoringModes:
 def submerged_modes(vehicle: Vehicle) -> RestoringModes:
     """Return roll and pitch about the stable attitude, upright or inverted."""
     # Attitude change dphi turns "down" by -dphi x d, hence the moment -S(arm) S(d) dphi for d along the arm.
-    arm = vehicle.restoring_arm + vehicle.load_arm
+    arm = vehicle.restoring_arm + vehicle.payload_moment
     length = float(np.linalg.norm(arm))
     if length == 0.0:
         return RestoringModes(np.zeros(2), np.eye(6)[[ROLL, PITCH]])

@@ -1,4 +1,4 @@
-"""A vessel that floats, in a vehicle file: its waterplane, its hull as boxes, and its loads."""
+"""A vessel that floats, in a vehicle file: its waterplane, its hull as boxes, and its payloads."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ class HullBox(Table):
     cells: tuple[Count, Count] | None = None
 
 
-class Load(Table):
+class Payload(Table):
     """A weight that acts besides those at rest with the buoyancy, on a vessel that floats or not.
 
     Attributes:

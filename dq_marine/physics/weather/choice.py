@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.term import ForceTerm
-from dq_marine.physics.waves.drift import SlowDrift
 from dq_marine.physics.waves.loads import WaveLoads
 from dq_marine.physics.waves.sea import Sea
+from dq_marine.physics.waves.slow_drift import SlowDrift
 from dq_marine.physics.waves.spectra import Jonswap, ModifiedPiersonMoskowitz, PiersonMoskowitz
 from dq_marine.physics.wind.build import Wind, Windage
 
@@ -48,7 +48,7 @@ def weather_of(weather: Sequence[Any]) -> tuple[Weather, ...]:
         {"kind": "sea", "spectrum": "jonswap", "height": 1.0, "period": 6.0, "direction": 0.5}
         {"kind": "wind", "speed": 8.0, "direction_from": 3.0, "gusts": True}
 
-    A sea's spectrum is one of `SPECTRA`, with its own arguments; with "drift": True it has its slow drift, too. A
+    A sea's spectrum is one of `SPECTRA`, with its own arguments; with "slow_drift": True it has its slow drift, too. A
     wind's windage is a dictionary of `Windage`'s arguments.
 
     Raises:
@@ -87,9 +87,9 @@ def _from_dictionary(arguments: dict[str, Any]) -> tuple[Weather, ...]:
             hold = Windage(**windage) if isinstance(windage, Mapping) else windage
             return (Wind(**given, windage=hold),)
         if kind == "sea":
-            drift = given.pop("drift", False)
+            slow_drift = given.pop("slow_drift", False)
             sea = _sea(given)
-            return (WaveLoads(sea), SlowDrift(sea)) if drift else (WaveLoads(sea),)
+            return (WaveLoads(sea), SlowDrift(sea)) if slow_drift else (WaveLoads(sea),)
     except TypeError as error:
         raise InvalidInputError(f"weather has {arguments!r}: {error}") from error
     raise InvalidInputError(f"weather has {arguments!r} of kind {kind!r}; give 'sea' or 'wind'")
@@ -119,7 +119,7 @@ def plain_weather(weather: Sequence[Any]) -> list[dict[str, Any]]:
         elif (
             isinstance(part, SlowDrift) and part.coefficients is None and plain[-1:] == [_plain_sea(part.sea)]
         ):
-            plain[-1]["drift"] = True
+            plain[-1]["slow_drift"] = True
         else:
             raise InvalidInputError(f"weather has {part!r}, which has no JSON; give it in Python")
     return plain

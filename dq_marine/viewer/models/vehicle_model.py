@@ -15,7 +15,7 @@ from dq_marine.viewer.models import (
 )
 from dq_marine.viewer.models.thruster_model import thruster_model
 from dq_marine.viewer.snapshot import Shape, ShapeKind
-from dq_marine.viewer.transport.messages import Command, set_object
+from dq_marine.viewer.transport.messages import Message, set_object
 from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface
 
 VEHICLE = "/world/vehicle"
@@ -47,17 +47,17 @@ THRUSTER_RADII: dict[ShapeKind, Callable[[Shape], float]] = {
 }
 
 
-def draw_vehicle(shape: Shape) -> list[Command]:
+def draw_vehicle(shape: Shape) -> list[Message]:
     """Draw a vehicle, part by part, in body axes."""
     parts = {**_hull_parts(shape), **_thrusters(shape)}
-    commands = [_draw(f"{VEHICLE}/{name}", painted, SOLID) for name, painted in parts.items()]
+    messages = [_draw(f"{VEHICLE}/{name}", painted, SOLID) for name, painted in parts.items()]
     if shape.kind == "open_frame":
         # Glass comes after what can be seen through it.
-        commands.append(_draw(f"{VEHICLE}/dome", open_frame_model.dome(shape), GLASS))
-    return commands
+        messages.append(_draw(f"{VEHICLE}/dome", open_frame_model.dome(shape), GLASS))
+    return messages
 
 
-def draw_goal(shape: Shape) -> list[Command]:
+def draw_goal(shape: Shape) -> list[Message]:
     """Draw the hull as a green ghost, and a green ball for a goal without an attitude."""
     hull = [painted for part in _hull_parts(shape).values() for painted in part]
     ghost = [replace(painted, color=GHOST_GREEN) for painted in hull]
@@ -79,5 +79,5 @@ def _thrusters(shape: Shape) -> dict[str, list[Painted]]:
     }
 
 
-def _draw(path: str, painted: list[Painted], look: Look) -> Command:
+def _draw(path: str, painted: list[Painted], look: Look) -> Message:
     return set_object(path, painted_surface(path, painted, look))

@@ -1,4 +1,4 @@
-"""The commands of meshcat's protocol: small dictionaries, packed with MessagePack.
+"""The messages of meshcat's protocol: small dictionaries, packed with MessagePack.
 
 Protocol: https://github.com/meshcat-dev/meshcat, section "API".
 """
@@ -15,8 +15,8 @@ from dq_marine.viewer.transport.three_json import Json
 
 
 @dataclass(frozen=True)
-class Command:
-    """One command to the page.
+class Message:
+    """One message to the page.
 
     Attributes:
         kind: what to do, such as `set_transform`.
@@ -29,32 +29,32 @@ class Command:
     content: Json = field(default_factory=dict)
 
     def packed(self) -> bytes:
-        """The command as the page reads it."""
-        message = {"type": self.kind, "path": self.path, **self.content}
-        packed: bytes = drawing_library("umsgpack").packb(message)
+        """The message as the page reads it."""
+        whole = {"type": self.kind, "path": self.path, **self.content}
+        packed: bytes = drawing_library("umsgpack").packb(whole)
         return packed
 
 
-CAPTURE_IMAGE = Command("capture_image")
+CAPTURE_IMAGE = Message("capture_image")
 """Ask for a picture of everything drawn so far."""
 
 
-def set_object(path: str, three_object: Json) -> Command:
+def set_object(path: str, three_object: Json) -> Message:
     """Draw a three.js object at `path`, in place of the one that was there."""
-    return Command("set_object", path, {"object": three_object})
+    return Message("set_object", path, {"object": three_object})
 
 
-def set_transform(path: str, placement: Placement) -> Command:
+def set_transform(path: str, placement: Placement) -> Message:
     """Move everything under `path`."""
-    return Command("set_transform", path, {"matrix": placement.matrix_by_columns()})
+    return Message("set_transform", path, {"matrix": placement.matrix_by_columns()})
 
 
-def set_property(path: str, name: str, value: Any) -> Command:
+def set_property(path: str, name: str, value: Any) -> Message:
     """Set a property of the three.js object at `path`."""
-    return Command("set_property", path, {"property": name, "value": value})
+    return Message("set_property", path, {"property": name, "value": value})
 
 
-def set_animation(clips: Sequence[Json], *, play: bool) -> Command:
+def set_animation(clips: Sequence[Json], *, play: bool) -> Message:
     """Animate things, over and over; a clip is `{"path": ..., "clip": ...}` for each thing."""
     options = {"play": play, "repetitions": float("inf")}
-    return Command("set_animation", "", {"animations": list(clips), "options": options})
+    return Message("set_animation", "", {"animations": list(clips), "options": options})

@@ -91,8 +91,8 @@ CONTROLS = """
 REPLAY_SCRIPT = """
   const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
   const bytes = (base64) => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-  for (const command of commands) {
-    viewer.handle_command_bytearray(bytes(command));
+  for (const message of messages) {
+    viewer.handle_command_bytearray(bytes(message));
   }
 """
 
@@ -155,7 +155,7 @@ LIVE_PAGE = _page(
 CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT))
 
 REPLAY_DATA_SCRIPT = """
-  const commands = $commands;
+  const messages = $messages;
   const times = $times;
 """
 

@@ -1,4 +1,4 @@
-"""The viewer's server as seen by the process that draws: start it, send it commands, end it."""
+"""The viewer's server as seen by the process that draws: start it, send it messages, end it."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from typing import Any
 
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.libraries import drawing_library, meshcat_page_folder
-from dq_marine.viewer.transport.messages import CAPTURE_IMAGE, Command
+from dq_marine.viewer.transport.messages import CAPTURE_IMAGE, Message
 
 START_TIMEOUT = 30.0
 REPLY_TIMEOUT = 10.0
 STOP_TIMEOUT = 2.0
-"""Seconds to wait for the server's start, for its answer to a command, and for its orderly end."""
+"""Seconds to wait for the server's start, for its answer to a message, and for its orderly end."""
 
 POLL_SECONDS = 0.2
 """How often a long wait looks whether it has become hopeless."""
@@ -61,18 +61,18 @@ class ServerProcess:
         """Process number of the server."""
         return self._process.pid
 
-    def send(self, command: Command) -> None:
-        """Have a command carried out by all connected pages, and by those that connect later.
+    def send(self, message: Message) -> None:
+        """Have a message carried out by all connected pages, and by those that connect later.
 
         Raises:
             ViewerError: the server is closed or does not answer.
         """
-        answer = self._request(command, REPLY_TIMEOUT)
+        answer = self._request(message, REPLY_TIMEOUT)
         if answer != b"ok":
-            raise ViewerError(f"the viewer's server refused {command.kind!r}: {answer!r}")
+            raise ViewerError(f"the viewer's server refused {message.kind!r}: {answer!r}")
 
     def capture(self, timeout: float, check: Callable[[], None]) -> bytes:
-        """A picture of what the connected page shows after all commands sent so far.
+        """A picture of what the connected page shows after all messages sent so far.
 
         Args:
             timeout: longest wait for the page and its picture [s].
@@ -91,11 +91,11 @@ class ServerProcess:
         self._socket.close(linger=0)
         self._stop()
 
-    def _request(self, command: Command, timeout: float, check: Callable[[], None] = lambda: None) -> bytes:
+    def _request(self, message: Message, timeout: float, check: Callable[[], None] = lambda: None) -> bytes:
         if self._socket.closed:
             raise ViewerError("the viewer is closed; open a new one")
-        kind, path = command.kind.encode(), command.path.encode()
-        self._socket.send_multipart([kind, path, command.packed()])
+        kind, path = message.kind.encode(), message.path.encode()
+        self._socket.send_multipart([kind, path, message.packed()])
         deadline = time.monotonic() + timeout
         while not self._socket.poll(1000 * POLL_SECONDS):
             check()
@@ -105,7 +105,7 @@ class ServerProcess:
             if time.monotonic() > deadline:
                 self.close()
                 raise ViewerError(
-                    f"no answer to {command.kind!r} within {timeout:g} s; the viewer is closed: "
+                    f"no answer to {message.kind!r} within {timeout:g} s; the viewer is closed: "
                     "open a new one, on a computer less busy"
                 )
         answer: bytes = self._socket.recv()

@@ -9,7 +9,7 @@ import numpy as np
 from dq_marine.viewer.meshes import revolved
 from dq_marine.viewer.placement import Y_AXIS, Placement, hidden_at, rotation_between, vector3
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
-from dq_marine.viewer.transport.messages import Command, set_object
+from dq_marine.viewer.transport.messages import Message, set_object
 from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface
 
 THRUST = "/world/thrust"
@@ -41,7 +41,7 @@ They lie below the vehicle, so that none comes between it and the camera above i
 CURRENT_PATHS = [f"{CURRENT}/{number}" for number in range(len(CURRENT_PLACES))]
 
 
-def draw_arrows() -> list[Command]:
+def draw_arrows() -> list[Message]:
     """All arrows, one unit long along y, to be turned and scaled by their placements."""
     return [
         _arrow(THRUST, THRUST_RED, THRUST_LOOK, thickness=0.04, tail=0.0),
@@ -80,7 +80,7 @@ def current_placements(snapshot: Snapshot, shape: Shape) -> dict[str, Placement]
     return dict(zip(CURRENT_PATHS, placements, strict=True))
 
 
-def _arrow(path: str, color: int, look: Look, thickness: float, tail: float) -> Command:
+def _arrow(path: str, color: int, look: Look, thickness: float, tail: float) -> Message:
     """Draw an arrow of length 1 along y that starts at y = `tail`."""
     shaft, head = 0.72, 0.28
     profile = [

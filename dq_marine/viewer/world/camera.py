@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
-from dq_marine.viewer.transport.messages import Command, set_object, set_property
+from dq_marine.viewer.transport.messages import Message, set_object, set_property
 from dq_marine.viewer.transport.three_json import bare_object
 
 CAMERA = "/Cameras/default/rotated"
@@ -56,7 +56,7 @@ class LeashedView:
         return self._anchor
 
 
-def place_camera(first: Snapshot, shape: Shape, sight: float) -> list[Command]:
+def place_camera(first: Snapshot, shape: Shape, sight: float) -> list[Message]:
     """Place the camera for the first picture; afterwards the mouse may move it.
 
     Args:

@@ -33,7 +33,7 @@ from dq_marine.viewer.placement import (
     vector3,
 )
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
-from dq_marine.viewer.transport.messages import Command
+from dq_marine.viewer.transport.messages import Message
 from dq_marine.viewer.world.arrows import (
     THRUST,
     current_placements,
@@ -89,7 +89,7 @@ class Drawing:
         self._view.restart()
         self._floor_depth = None
 
-    def scenery(self, first: Snapshot) -> list[Command]:
+    def scenery(self, first: Snapshot) -> list[Message]:
         """Everything there is to draw, before it is placed; sent once."""
         scale, surroundings = self._scale, surroundings_of(self._shape)
         return [

@@ -13,7 +13,7 @@ import numpy as np
 
 from dq_marine.viewer.meshes import Mesh, flat_polygon, grid_triangles, joined
 from dq_marine.viewer.snapshot import FloatArray, Shape
-from dq_marine.viewer.transport.messages import Command, set_object
+from dq_marine.viewer.transport.messages import Message, set_object
 from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface, point_cloud, rgb, surface
 from dq_marine.viewer.world.water import Surroundings
 
@@ -70,7 +70,7 @@ class SeaScale:
         return 0.8 * self.half_sheet
 
 
-def draw_floor(scale: SeaScale) -> list[Command]:
+def draw_floor(scale: SeaScale) -> list[Message]:
     """A level, sandy sea floor with a grid, to be placed at its depth."""
     sand, grid = f"{FLOOR}/sand", f"{FLOOR}/grid"
     sheet = _sheet(scale)
@@ -81,7 +81,7 @@ def draw_floor(scale: SeaScale) -> list[Command]:
     return [set_object(sand, sand_json), set_object(grid, grid_json)]
 
 
-def draw_surface(scale: SeaScale, water: Surroundings) -> list[Command]:
+def draw_surface(scale: SeaScale, water: Surroundings) -> list[Message]:
     """The water's surface, to be placed at depth zero."""
     sheet, look = _sheet(scale), Look(opacity=water.surface_opacity, lit=False, both_sides=True)
     colors = rgb(water.surface) * _mottle(sheet, scale.period, water.surface_patches)
@@ -91,7 +91,7 @@ def draw_surface(scale: SeaScale, water: Surroundings) -> list[Command]:
     return [set_object(SURFACE, drawn)]
 
 
-def draw_shadow(shape: Shape) -> list[Command]:
+def draw_shadow(shape: Shape) -> list[Message]:
     """A dim spot on the floor below the vehicle: it shows how high above the floor that is."""
     around = np.linspace(0.0, 2 * np.pi, 33)[:-1]
     radius = 0.45 * max(shape.length, shape.width)
@@ -100,7 +100,7 @@ def draw_shadow(shape: Shape) -> list[Command]:
     return [set_object(SHADOW, painted_surface(SHADOW, [spot], SHADOW_LOOK))]
 
 
-def draw_specks(scale: SeaScale) -> list[Command]:
+def draw_specks(scale: SeaScale) -> list[Message]:
     """Specks that hang in the water: they show motion where nothing else is near."""
     block = np.random.default_rng(seed=1).uniform(0.0, 1.0, (SPECKS_PER_BLOCK, 3))
     corners = np.array(np.meshgrid(*[(-1.0, 0.0)] * 3)).reshape(3, -1).T

@@ -21,7 +21,7 @@ class Stage:
         """Draw nothing yet.
 
         Args:
-            server: carries the commands to the pages.
+            server: carries the messages to the pages.
             shape: the vehicle.
             floor_depth: depth of the sea floor [m], or None for one below vehicle and goal.
         """
@@ -43,12 +43,12 @@ class Stage:
             ViewerError: the server has gone.
         """
         if self._last is None:
-            for command in self._drawing.scenery(snapshot):
-                self._server.send(command)
+            for message in self._drawing.scenery(snapshot):
+                self._server.send(message)
         elif _is_new_episode(self._last, snapshot):
             self.restart()
         if self._trail.extend(snapshot.position_ned):
-            self._server.send(self._trail.command())
+            self._server.send(self._trail.message())
         for path, placement in self._drawing.placements(snapshot).items():
             if self._placed.get(path) != placement:
                 self._server.send(set_transform(path, placement))

@@ -7,7 +7,7 @@ from collections import deque
 import numpy as np
 
 from dq_marine.viewer.snapshot import FloatArray
-from dq_marine.viewer.transport.messages import Command, set_object
+from dq_marine.viewer.transport.messages import Message, set_object
 from dq_marine.viewer.transport.three_json import polyline
 
 TRAIL = "/world/trail"
@@ -40,11 +40,11 @@ class Trail:
         self._positions.append(position_ned)
         return True
 
-    def command(self) -> Command:
+    def message(self) -> Message:
         """Draw the trail as it is now."""
         return draw_trail(np.array(self._positions))
 
 
-def draw_trail(positions_ned: FloatArray) -> Command:
+def draw_trail(positions_ned: FloatArray) -> Message:
     """Draw a line through positions, shape (n, 3) [m]."""
     return set_object(TRAIL, polyline(TRAIL, positions_ned, TRAIL_YELLOW))

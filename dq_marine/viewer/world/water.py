@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from dq_marine.viewer.placement import Placement, Vector3
 from dq_marine.viewer.snapshot import Shape
-from dq_marine.viewer.transport.messages import Command, set_object, set_property
+from dq_marine.viewer.transport.messages import Message, set_object, set_property
 from dq_marine.viewer.transport.three_json import Json, bare_object
 
 Color = tuple[float, float, float]
@@ -72,7 +72,7 @@ MESHCAT_SCENERY = (
 )
 
 
-def draw_water(colors: Surroundings, sight: float) -> list[Command]:
+def draw_water(colors: Surroundings, sight: float) -> list[Message]:
     """Colours, light and murk, in place of the scenery that meshcat starts with.
 
     Args:

@@ -132,7 +132,7 @@ def uncoupled(**tables):
     content["rigid_body"] |= {"center_of_mass": (0.0, 0.0, 0.0), "inertia": (16.0, 21.0, 30.0)}
     content["damping"] = {"linear": (0.0,) * 6}
     content["hydrostatics"] |= {"center_of_flotation": 0.0}
-    content |= {"loads": (), "hull": ()} | tables
+    content |= {"payloads": (), "hull": ()} | tables
     return Vehicle.model_validate(content)
 
 
@@ -205,19 +205,19 @@ def test_free_roll_of_the_supply_vessel_has_the_period_and_damping_of_its_gm_and
     assert math.log(math.radians(1.0) / roll(body)) == pytest.approx(-values[mode].real * period, rel=1e-2)
 
 
-def test_a_load_sinks_and_trims_the_vessel():
+def test_a_payload_sinks_and_trims_the_vessel():
     """C zeta = (m g, y m g, -x m g): where the Otter comes to rest, to first order."""
     content = load_vehicle("otter").model_dump()
     content["hydrostatics"] |= {"force_axes": "earth"}
     vehicle = Vehicle.model_validate(content)
-    (load,) = vehicle.loads
+    (payload,) = vehicle.payloads
     scene = Scene(vehicle, step=0.02)
     assert scene.terms[:3] == ("waterplane restoring", "net weight", "righting moment")
     body = scene.stepper()
     body.step(steps=3000)
-    weight = load.mass * 9.81
+    weight = payload.mass * 9.81
     depth, roll, pitch = np.linalg.solve(
-        vehicle.waterplane_stiffness, [weight, 0.0, -load.position[0] * weight]
+        vehicle.waterplane_stiffness, [weight, 0.0, -payload.position[0] * weight]
     )
     assert body.position_ned[2] == pytest.approx(depth, rel=5e-3)
     assert 2.0 * body.quaternion_body_to_ned[2] == pytest.approx(pitch, rel=0.15)

@@ -38,12 +38,12 @@ WRONG = {
         "greater than 0",
     ),
     "no cells": ("cells = [16, 2]", "cells = [0, 2]", "hull.0.cells.0", "greater than or equal to 1"),
-    "heavy load": ("mass = 25.0 ", "mass = 2500.0 ", "loads.0.mass", "rigid_body.mass"),
+    "heavy payload": ("mass = 25.0 ", "mass = 2500.0 ", "payloads.0.mass", "rigid_body.mass"),
     "draft in cm": ("draft = 0.195", "draft = 19.5", "dimensions.draft", "in m"),
-    "load adrift": (
+    "payload adrift": (
         "position = [0.05, 0.0, -0.35]",
         "position = [50.0, 0.0, 0.0]",
-        "loads.0.position",
+        "payloads.0.position",
         "in m",
     ),
 }

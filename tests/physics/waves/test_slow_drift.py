@@ -8,7 +8,7 @@ import pytest
 from dq_marine.algebra.dual_quaternion import pose_from_parts
 from dq_marine.algebra.spatial import to_fossen
 from dq_marine.errors import InvalidInputError
-from dq_marine.physics.waves.drift import reflected_drift
+from dq_marine.physics.waves.slow_drift import reflected_drift
 from dq_marine.physics.weather import DriftCoefficients, Jonswap, Sea, SlowDrift
 from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import load_vehicle
