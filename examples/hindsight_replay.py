@@ -123,8 +123,8 @@ ID = "my/SwimToPoint-v0"
 define_task(globals(), id=ID, summary="Swim to a point.", draws=SLOW_START_DRAWS + 3, max_episode_steps=100)
 
 
-def main(steps: int = 2000) -> None:
-    """Learn for a moment; a hundred times as many steps make a good pilot."""
+def main(steps: int = 600) -> None:
+    """Learn for a moment; some hundred times as many steps make a good pilot."""
     envs = MarineVecEnv(gym.make_vec(ID, num_envs=4, autoreset_mode="SameStep"))
     model = SAC(
         "MultiInputPolicy",

@@ -59,7 +59,7 @@ CASES = {
     "implicit node": {"l_stable": False, "linear": LINEAR, "quadratic": QUADRATIC},
 }
 
-PLAIN_CASES = ("inertia alone", "order 6, paper", "order 4, forces", "implicit node")
+PLAIN_CASES = ("inertia alone", "order 4, forces")
 
 
 def batch_like(bodies, **options):

@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from support import otter
 from support.otter import damping_diagonal, inertia_matrices, otter_run, restoring_matrix
+from support.sweeps import sweep
 
 from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import load_vehicle
@@ -72,8 +73,11 @@ def spinning(t):
     return 50.0, -50.0
 
 
-@pytest.mark.parametrize("commands", [wandering, astern, spinning])
-@pytest.mark.parametrize("current", [(0.0, 0.0, 0.0), (0.3, -0.4, 0.0)])
+STILL, FLOWING = (0.0, 0.0, 0.0), (0.3, -0.4, 0.0)
+RUNS = [(commands, current) for commands in (wandering, astern, spinning) for current in (STILL, FLOWING)]
+
+
+@pytest.mark.parametrize(("commands", "current"), sweep(RUNS, plain=[(astern, FLOWING), (spinning, STILL)]))
 def test_other_runs_and_a_current(commands, current):
     times = np.arange(0.0, 40.01, 0.5)
 

@@ -29,7 +29,7 @@ OWN = [task.id for task in registered_tasks() if task.id.startswith("dq_marine/"
 SUITED = [
     (task, name) for name in vehicle_names() for task in tasks_suiting(load_vehicle(name)) if task in OWN
 ]
-PLAIN = [(STATION_KEEPING, "bluerov2_heavy"), (WAYPOINT_TRACKING, "remus100")]
+PLAIN = [(STATION_KEEPING, "bluerov2_heavy"), (WAYPOINT_TRACKING, "bluerov2_heavy")]
 each_suited = pytest.mark.parametrize(("task", "vehicle"), sweep(SUITED, plain=PLAIN))
 
 STEPS, MANY = 1000, 3
@@ -82,8 +82,8 @@ def test_the_reward_is_the_sum_of_its_terms(task, vehicle):
 
 @each_suited
 def test_environments_in_lanes_have_the_bits_of_single_ones(task, vehicle):
-    envs = gym.make_vec(task, num_envs=MANY, vehicle=vehicle, current=0.3)
-    singles = [gym.make(task, vehicle=vehicle, current=0.3) for _ in range(MANY)]
+    envs = gym.make_vec(task, num_envs=MANY, vehicle=vehicle)
+    singles = [gym.make(task, vehicle=vehicle) for _ in range(MANY)]
     begun, _ = envs.reset(seed=5)
     assert np.array_equal(begun, [env.reset(seed=5 + i)[0] for i, env in enumerate(singles)])
     rng = np.random.default_rng(1)

@@ -8,6 +8,7 @@ from support.actuated import actuator_wrench, solve
 from support.fleet import everything, twin_screw, vehicle_with
 from support.fossen import errors
 from support.order import observed_order
+from support.sweeps import sweep
 
 from dq_marine.errors import InvalidInputError, StepNotSolvableError
 from dq_marine.simulation.scene import Scene, batch_of
@@ -43,7 +44,10 @@ def placed(body, values):
     body.set_state(state)
 
 
-@pytest.mark.parametrize(("order", "finest", "tolerance"), [(2, 320, 0.05), (4, 160, 0.15)])
+ORDERS = [(2, 320, 0.05), (4, 160, 0.15)]
+
+
+@pytest.mark.parametrize(("order", "finest", "tolerance"), sweep(ORDERS, plain=ORDERS[:1]))
 def test_the_order_is_kept(order, finest, tolerance):
     vehicle = lagged()
     values = np.array([20.0, 15.0, 0.5, 0.1])  # no channel changes sign: n |n| has a kink there
