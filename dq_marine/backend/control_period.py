@@ -1,4 +1,4 @@
-"""One control period of one body's task, compiled: action in, observation and verdict out."""
+"""One control period of one body's task, compiled: action in, observation and result out."""
 
 from __future__ import annotations
 
@@ -83,20 +83,20 @@ def compiled_control_period(
             steps,
             load_uniforms(uniforms),
         )
-        step, verdict = outcome.step, outcome.verdict
+        step, result = outcome.step, outcome.task
         keep(parameters, numbers, outcome.water)
         store(action, held)
         store(state, step.state)
         store(memory, outcome.memory)
         store(observation, outcome.observation)
-        store(report, (verdict.report, outcome.current_ned))
+        store(report, (result.report, outcome.current_ned))
         return (
             step.status,
             step.completed,
             step.fallbacks,
             step.residual_squared,
-            verdict.reward,
-            verdict.terminated,
+            result.reward,
+            result.terminated,
         )
 
     layout = f"{step_layout}|{episode_layout}|{memory_layout}"

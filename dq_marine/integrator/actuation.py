@@ -24,7 +24,7 @@ class Actuation:
         rest: values of the channels at rest, nested.
         nest: (flat tuple) -> the same numbers nested.
         commands: (channels, actions) -> commands of actions in [-1, 1], both nested.
-        aim: (channels, values, commands) -> targets.
+        targets: (channels, values, commands) -> targets.
         follow: (channels, values, targets, elapsed) -> values after a time [s].
         add_wrenches: (effects, values, twist relative to the water, wrench) -> wrench + what the actuators do.
     """
@@ -35,7 +35,7 @@ class Actuation:
     rest: Any
     nest: Callable[[Any], Any]
     commands: Callable[[Any, Any], Any]
-    aim: Callable[[Any, Any, Any], Any]
+    targets: Callable[[Any, Any, Any], Any]
     follow: Callable[[Any, Any, Any, float], Any]
     add_wrenches: Callable[[Any, Any, Spatial, Spatial], Spatial]
 
@@ -50,7 +50,7 @@ def nothing_commanded(channels: Any, actions: Any) -> tuple[()]:
     return ()
 
 
-def nothing_aimed(channels: Any, values: Any, commands: Any) -> tuple[()]:
+def no_targets(channels: Any, values: Any, commands: Any) -> tuple[()]:
     """Return the targets of no channel."""
     return ()
 
@@ -77,7 +77,7 @@ NO_ACTUATION = Actuation(
     rest=(),
     nest=nothing_nested,
     commands=nothing_commanded,
-    aim=nothing_aimed,
+    targets=no_targets,
     follow=nothing_followed,
     add_wrenches=nothing_added,
 )

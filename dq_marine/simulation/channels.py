@@ -10,12 +10,12 @@ from dq_marine.backend.packing import unpack
 from dq_marine.checks import finite_array
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.step import Composition, StepParameters
-from dq_marine.physics.actuators.formulas.force import Drive
+from dq_marine.physics.actuators.formulas.force import Transient
 from dq_marine.physics.actuators.formulas.stepping import (
     actuators_reader,
     actuators_writer,
-    driven_by,
     make_actuator_wrench,
+    with_transient,
 )
 
 
@@ -72,9 +72,9 @@ class BodyChannels:
         actuation = self._composition.actuation
         actuators = actuators_reader(self._composition)(parameters)
         values, commands = (unpack(actuation.rest, numbers) for numbers in (self.values, self.commands))
-        targets = actuation.aim(actuators.channels, values, commands)
-        drive = Drive(values, targets, time)
-        return actuators_writer(self._composition)(parameters, driven_by(actuators, drive))
+        targets = actuation.targets(actuators.channels, values, commands)
+        transient = Transient(values, targets, time)
+        return actuators_writer(self._composition)(parameters, with_transient(actuators, transient))
 
     def wrench(self, parameters: StepParameters, twist: Spatial) -> Spatial:
         """Return what the actuators do to a body that moves through the water with a twist."""

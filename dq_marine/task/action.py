@@ -19,7 +19,7 @@ from dq_marine.task.episode import EpisodeParameters
 AXES = 6
 """Numbers in an action that is a wrench."""
 
-Push: TypeAlias = Callable[
+Act: TypeAlias = Callable[
     [StepParameters, EpisodeParameters, BodyState, Any, tuple[float, ...], float, int],
     tuple[StepOutcome, Any],
 ]
@@ -53,11 +53,11 @@ def wrench_of(episode: EpisodeParameters, action: tuple[float, ...]) -> Spatial:
     )
 
 
-def make_push(composition: Composition) -> Push:
-    """Return the push by the wrench that an action means."""
+def make_wrench_action(composition: Composition) -> Act:
+    """Return what an action does where it means a wrench."""
     advance = make_advance(composition)
 
-    def push(
+    def act(
         parameters: StepParameters,
         episode: EpisodeParameters,
         state: BodyState,
@@ -68,15 +68,15 @@ def make_push(composition: Composition) -> Push:
     ) -> tuple[StepOutcome, Any]:
         return advance(parameters, state, wrench_of(episode, action), time, steps), memory
 
-    return push
+    return act
 
 
-def make_actuators_push(composition: Composition) -> Push:
-    """Return the push by actuators, whose channels' values stand in an `ActuatedMemory`."""
+def make_actuator_action(composition: Composition) -> Act:
+    """Return what an action does where actuators take it, whose channels' values stand in an `ActuatedMemory`."""
     advance, read = make_actuated_advance(composition), actuators_reader(composition)
     nest, commands = composition.actuation.nest, composition.actuation.commands
 
-    def push_by_actuators(
+    def act_by_actuators(
         parameters: StepParameters,
         episode: EpisodeParameters,
         state: BodyState,
@@ -89,7 +89,7 @@ def make_actuators_push(composition: Composition) -> Push:
         outcome = advance(parameters, state, memory.values, commanded, NO_WRENCH, time, steps)
         return outcome.step, ActuatedMemory(memory.task, outcome.values)
 
-    return push_by_actuators
+    return act_by_actuators
 
 
 def make_sum_of_squares(size: int, first: int = 0) -> Callable[[tuple[float, ...]], float]:

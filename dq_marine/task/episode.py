@@ -46,7 +46,7 @@ class Report(NamedTuple):
     success: float
 
 
-class Verdict(NamedTuple):
+class TaskOutcome(NamedTuple):
     """The reward of a control period, 1.0 if the episode ends with it, else 0.0, and what is told of it."""
 
     reward: float
@@ -88,7 +88,7 @@ class EpisodeTask:
         initial_memory: (parameters, start, uniforms) -> memory.
         update_memory: (parameters, memory, motion, measured) -> memory.
         observe: (parameters, memory, motion) -> nested tuples of numbers.
-        judge: (parameters, memory, motion, sum of the squares of the action) -> Verdict.
+        outcome: (parameters, memory, motion, sum of the squares of the action) -> TaskOutcome.
         no_rewards: the terms of the reward, all zero.
         sensing: what sensors do to the memory.
     """
@@ -98,7 +98,7 @@ class EpisodeTask:
     initial_memory: Callable[[EpisodeParameters, Start, tuple[float, ...]], Any]
     update_memory: Callable[[EpisodeParameters, Any, Motion, Motion], Any]
     observe: Callable[[EpisodeParameters, Any, Motion], Any]
-    judge: Callable[[EpisodeParameters, Any, Motion, float], Verdict]
+    outcome: Callable[[EpisodeParameters, Any, Motion, float], TaskOutcome]
     no_rewards: Any
     sensing: Sensing = NO_SENSORS
 
@@ -172,7 +172,9 @@ def episode_task(task: Task, extra_rewards: tuple[Callable[[Situation], float], 
     def observe(parameters: EpisodeParameters, memory: Any, motion: Motion) -> Any:
         return observe_task(parameters.task, memory, motion)
 
-    def judge(parameters: EpisodeParameters, memory: Any, motion: Motion, action_squares: float) -> Verdict:
+    def outcome(
+        parameters: EpisodeParameters, memory: Any, motion: Motion, action_squares: float
+    ) -> TaskOutcome:
         own = parameters.task
         metrics = measure(own, memory, motion)
         situation = Situation(motion, memory, metrics, action_squares, parameters.actions)
@@ -181,7 +183,7 @@ def episode_task(task: Task, extra_rewards: tuple[Callable[[Situation], float], 
         like = motion.position_ned[0]
         success = select(done(own, situation), spread(1.0, like), spread(0.0, like))
         terminated = select(ended(own, situation), spread(1.0, like), spread(0.0, like))
-        return Verdict(total(terms, added), terminated, Report(metrics, (terms, added), success))
+        return TaskOutcome(total(terms, added), terminated, Report(metrics, (terms, added), success))
 
     none = (task.rewards(*(0.0,) * len(task.rewards._fields)), (0.0,) * len(extra_rewards))
-    return EpisodeTask(task.draws, start, initial_memory, update_memory, observe, judge, none)
+    return EpisodeTask(task.draws, start, initial_memory, update_memory, observe, outcome, none)

@@ -1,4 +1,4 @@
-"""One control period of an episode: act, advance, sense, remember, then observe and judge."""
+"""One control period of an episode: act, advance, sense, remember, then observe, and say what came of it."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from dq_marine.integrator.step import (
     in_water,
     make_motion,
 )
-from dq_marine.task.action import action_size, make_actuators_push, make_push, make_sum_of_squares
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Report, Verdict
+from dq_marine.task.action import action_size, make_actuator_action, make_sum_of_squares, make_wrench_action
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Report, TaskOutcome
 
 
 class PeriodUniforms(NamedTuple):
@@ -30,7 +30,7 @@ class PeriodUniforms(NamedTuple):
 class PeriodOutcome(NamedTuple):
     """The end of one control period.
 
-    After a refused step all is as before the period, but for the verdict: no reward, and the end.
+    After a refused step all is as before the period, but for the task: no reward, and the end.
     """
 
     step: StepOutcome
@@ -38,7 +38,7 @@ class PeriodOutcome(NamedTuple):
     current_ned: Vector3
     memory: Any
     observation: Any
-    verdict: Verdict
+    task: TaskOutcome
 
 
 def no_choice(condition: bool, chosen: Any, otherwise: Any) -> Any:
@@ -60,9 +60,14 @@ def make_control_period(
 
     Where the composition has actuators, the task must be made by `with_actuators`.
     """
-    push = make_actuators_push(composition) if composition.actuation.channels else make_push(composition)
+    act = (
+        make_actuator_action(composition)
+        if composition.actuation.channels
+        else make_wrench_action(composition)
+    )
     motion_of, sum_of_squares = make_motion(composition), make_sum_of_squares(action_size(composition))
-    sense, update, observe, judge = task.sensing.later, task.update_memory, task.observe, task.judge
+    sense, update = task.sensing.later, task.update_memory
+    observe, outcome = task.observe, task.outcome
     evolve, velocity = composition.water.evolve, composition.water.velocity
     choose_water = select if composition.water.draws else no_choice
     no_rewards = task.no_rewards
@@ -78,24 +83,24 @@ def make_control_period(
         uniforms: PeriodUniforms,
     ) -> PeriodOutcome:
         moving = evolve(parameters.water, time, uniforms.water)
-        step, pushed = push(in_water(parameters, moving), episode, state, memory, action, time, steps)
+        step, acted = act(in_water(parameters, moving), episode, state, memory, action, time, steps)
         taken = step.status == ACCEPTED
         water = choose_water(taken, moving, parameters.water)
         motion = motion_of(in_water(parameters, water), step.state)
-        sensed = sense(episode, pushed, motion, uniforms.sensing)
+        sensed = sense(episode, acted, motion, uniforms.sensing)
         memory_after = select(taken, update(episode, sensed, motion, motion), memory)
-        verdict = judge(episode, memory_after, motion, sum_of_squares(action))
-        report = verdict.report
-        rewards = select(taken, report.rewards, spread(no_rewards, verdict.reward))
+        result = outcome(episode, memory_after, motion, sum_of_squares(action))
+        report = result.report
+        rewards = select(taken, report.rewards, spread(no_rewards, result.reward))
         return PeriodOutcome(
             step,
             water,
             velocity(water, step.state.pose),
             memory_after,
             observe(episode, memory_after, motion),
-            Verdict(
-                select(taken, verdict.reward, 0.0),
-                select(taken, verdict.terminated, 1.0),
+            TaskOutcome(
+                select(taken, result.reward, 0.0),
+                select(taken, result.terminated, 1.0),
                 Report(report.metrics, rewards, report.success),
             ),
         )

@@ -102,11 +102,11 @@ def make_beginning(
 
 def make_first_report(task: EpisodeTask) -> Callable[[EpisodeParameters, Any, Motion], Report]:
     """Return (episode's parameters, memory, motion) -> what is told where no control period has gone by."""
-    judge, no_rewards = task.judge, task.no_rewards
+    outcome, no_rewards = task.outcome, task.no_rewards
 
     def first_report(episode: EpisodeParameters, memory: Any, motion: Motion) -> Report:
         like = motion.position_ned[0]
-        report = judge(episode, memory, motion, spread(0.0, like)).report
+        report = outcome(episode, memory, motion, spread(0.0, like)).report
         return Report(report.metrics, spread(no_rewards, like), report.success)
 
     return first_report

@@ -234,15 +234,15 @@ def compiled_period(
             bodies = lane_numbers(elapsed, block)
             uniforms = draw_uniforms(negation(idle), arrays.generators, bodies, elapsed)
             outcome = control_period(parameters, episode, state, memory, action, time, steps, uniforms)
-            step, verdict = outcome.step, outcome.verdict
+            step, result = outcome.step, outcome.task
             keep_water(arrays.parameters, block, in_water(parameters, outcome.water))
 
-            terminated = (verdict.terminated != 0.0) & negation(idle)
+            terminated = (result.terminated != 0.0) & negation(idle)
             elapsed = elapsed + 1.0
             truncated = (elapsed >= most_periods) & negation(idle)
             ended = terminated | truncated
             renewed, waiting = renewal(idle, ended)
-            store_rows(arrays.rewards, block, select(idle, 0.0, verdict.reward))
+            store_rows(arrays.rewards, block, select(idle, 0.0, result.reward))
             store_rows(arrays.terminated, block, terminated)
             store_rows(arrays.truncated, block, truncated)
             store_rows(arrays.ended, block, waiting)
@@ -254,11 +254,11 @@ def compiled_period(
 
             begun = Beginning(
                 outcome.water,
-                spread(outcome.current_ned, verdict.reward),
+                spread(outcome.current_ned, result.reward),
                 step.state,
                 outcome.memory,
                 outcome.observation,
-                verdict.report,
+                result.report,
             )
             if some(ended):
                 store_rows(arrays.final_observations, block, outcome.observation)

@@ -35,7 +35,7 @@ from dq_marine.physics.actuators.formulas.effects import (
     ThrusterInFlow,
 )
 from dq_marine.physics.actuators.formulas.effects import Fin as FinEffect
-from dq_marine.physics.actuators.formulas.force import ActuatorKind, Actuators, Drive, make_actuation
+from dq_marine.physics.actuators.formulas.force import ActuatorKind, Actuators, Transient, make_actuation
 from dq_marine.physics.actuators.tables import Azimuth, Fin, Propulsion, Thruster
 from dq_marine.physics.term import ForceTerm
 
@@ -74,7 +74,7 @@ class ActuationTerm(NamedTuple):
     def force_at(self, step: float) -> ForceTerm:
         """Return the force for a step size [s], with the actuators at rest."""
         rest = self.actuation.rest
-        numbers = Actuators(self.channels, self.effects, step, Drive(rest, rest, 0.0))
+        numbers = Actuators(self.channels, self.effects, step, Transient(rest, rest, 0.0))
         return ForceTerm(NAME, self.actuation.force, numbers, uses_velocity=self.actuation.uses_velocity)
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from dq_marine.algebra.nesting import nested
 from dq_marine.integrator.body import Motion
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Sensing, Verdict
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Sensing, TaskOutcome
 from dq_marine.task.protocol import Start
 from dq_marine.task.sensors.errors import (
     Instrument,
@@ -122,7 +122,7 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
     read_first, read_later = join_first(instruments), join_later(instruments)
     believe, show = join_believe(instruments), join_show(instruments)
     first_memory, next_memory = task.initial_memory, task.update_memory
-    observe_task, judge_task = task.observe, task.judge
+    observe_task, task_outcome = task.observe, task.outcome
     blank = blank_readings(instruments)
 
     def initial_memory(parameters: EpisodeParameters, begun: Start, uniforms: tuple[float, ...]) -> Sensed:
@@ -144,10 +144,10 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
         told = believe(memory.readings, motion)
         return (observe_task(parameters, memory.task, told), show(memory.readings))
 
-    def judge(
+    def outcome(
         parameters: EpisodeParameters, memory: Sensed, motion: Motion, action_squares: float
-    ) -> Verdict:
-        return judge_task(parameters, memory.task, motion, action_squares)
+    ) -> TaskOutcome:
+        return task_outcome(parameters, memory.task, motion, action_squares)
 
     sensing = Sensing(first, sum(map(first_draws, instruments)), later, sum(map(later_draws, instruments)))
     return replace(
@@ -155,6 +155,6 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
         initial_memory=initial_memory,
         update_memory=update_memory,
         observe=observe,
-        judge=judge,
+        outcome=outcome,
         sensing=sensing,
     )

@@ -58,11 +58,11 @@ class ChannelKind(NamedTuple):
     """The functions of a channel.
 
     Attributes:
-        aim: (channel, value, command) -> the value that the command leads to.
+        target: (channel, value, command) -> the value that the command leads to.
         follow: (dynamics, value, target, elapsed) -> the value after a time [s] under a constant command.
     """
 
-    aim: Callable[[Channel, float, float], float]
+    target: Callable[[Channel, float, float], float]
     follow: Callable[[Any, float, float, float], float]
 
 

@@ -1,7 +1,7 @@
 """All actuators of a vehicle as one force that depends on time, and how a command reaches it.
 
 An actuator's state does not depend on the body (see `physics.actuators.formulas.channels`). Over one call of the step
-it is therefore a function of time and of a few numbers, the `Drive`: the state at the start, what the command leads
+it is therefore a function of time and of a few numbers, the `Transient`: the state at the start, what the command leads
 to, and when. `make_actuated_advance` writes them into the force's parameters, advances, and reads the state at the
 end. The integrator knows nothing of it and keeps its order.
 
@@ -19,8 +19,8 @@ from dq_marine.algebra.nesting import folded, nested
 from dq_marine.algebra.spatial import ZERO, Spatial, spatial_add
 from dq_marine.integrator.actuation import (
     Actuation,
+    no_targets,
     nothing_added,
-    nothing_aimed,
     nothing_commanded,
     nothing_followed,
     nothing_nested,
@@ -28,7 +28,7 @@ from dq_marine.integrator.actuation import (
 from dq_marine.physics.actuators.formulas.channels import ChannelKind, scaled_command
 from dq_marine.physics.actuators.formulas.effects import EffectKind
 
-Aim: TypeAlias = Callable[[Any, Any, Any], Any]
+Targets: TypeAlias = Callable[[Any, Any, Any], Any]
 Follow: TypeAlias = Callable[[Any, Any, Any, float], Any]
 AddWrenches: TypeAlias = Callable[[Any, Any, Spatial, Spatial], Spatial]
 
@@ -40,7 +40,7 @@ class ActuatorKind(NamedTuple):
     channels: tuple[ChannelKind, ...]
 
 
-class Drive(NamedTuple):
+class Transient(NamedTuple):
     """What the channels do from a time on.
 
     Attributes:
@@ -61,13 +61,13 @@ class Actuators(NamedTuple):
         channels: a `Channel` for each channel.
         effects: parameters of each actuator's effect.
         step: step size [s].
-        drive: what they are doing.
+        transient: what they are doing now.
     """
 
     channels: Any
     effects: Any
     step: float
-    drive: Drive
+    transient: Transient
 
 
 @functools.cache
@@ -78,13 +78,13 @@ def make_actuation(kinds: tuple[ActuatorKind, ...]) -> Actuation:
     follow, add_wrenches = join_followers(channels), join_effects(effects)
 
     def posed_actuators(actuators: Actuators, pose: DualQuaternion, time: float) -> Spatial:
-        drive = actuators.drive
-        values = follow(actuators.channels, drive.values, drive.targets, time - drive.since)
+        transient = actuators.transient
+        values = follow(actuators.channels, transient.values, transient.targets, time - transient.since)
         return add_wrenches(actuators.effects, values, ZERO, ZERO)
 
     def moving_actuators(actuators: Actuators, pose: DualQuaternion, twist: Spatial, time: float) -> Spatial:
-        drive = actuators.drive
-        values = follow(actuators.channels, drive.values, drive.targets, time - drive.since)
+        transient = actuators.transient
+        values = follow(actuators.channels, transient.values, transient.targets, time - transient.since)
         return add_wrenches(actuators.effects, values, twist, ZERO)
 
     moving = any(effect.uses_velocity for effect in effects)
@@ -95,7 +95,7 @@ def make_actuation(kinds: tuple[ActuatorKind, ...]) -> Actuation:
         rest=nested([0.0] * len(channels)),
         nest=make_nest(len(channels)),
         commands=make_commands(len(channels)),
-        aim=join_aims(channels),
+        targets=join_targets(channels),
         follow=follow,
         add_wrenches=add_wrenches,
     )
@@ -125,18 +125,18 @@ def make_commands(count: int) -> Callable[[Any, Any], Any]:
     return folded(link, range(count), nothing_commanded)
 
 
-def join_aims(kinds: tuple[ChannelKind, ...]) -> Aim:
+def join_targets(kinds: tuple[ChannelKind, ...]) -> Targets:
     """Return (channels, values, commands) -> targets."""
 
-    def link(kind: ChannelKind, rest: Aim) -> Aim:
-        first = kind.aim
+    def link(kind: ChannelKind, rest: Targets) -> Targets:
+        first = kind.target
 
-        def aim(channels: Any, values: Any, commands: Any) -> Any:
+        def targets(channels: Any, values: Any, commands: Any) -> Any:
             return (first(channels[0], values[0], commands[0]), rest(channels[1], values[1], commands[1]))
 
-        return aim
+        return targets
 
-    return folded(link, kinds, nothing_aimed)
+    return folded(link, kinds, no_targets)
 
 
 def join_followers(kinds: tuple[ChannelKind, ...]) -> Follow:

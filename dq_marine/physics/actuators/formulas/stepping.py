@@ -9,7 +9,7 @@ from dq_marine.algebra.selection import select
 from dq_marine.algebra.spatial import ZERO, Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.step import ACCEPTED, Composition, StepOutcome, StepParameters, make_advance
-from dq_marine.physics.actuators.formulas.force import Actuators, Drive
+from dq_marine.physics.actuators.formulas.force import Actuators, Transient
 
 
 class Actuated(NamedTuple):
@@ -19,9 +19,9 @@ class Actuated(NamedTuple):
     values: Any
 
 
-def driven_by(actuators: Actuators, drive: Drive) -> Actuators:
-    """Return the parameters of the actuators' force with another drive."""
-    return Actuators(actuators.channels, actuators.effects, actuators.step, drive)
+def with_transient(actuators: Actuators, transient: Transient) -> Actuators:
+    """Return the parameters of the actuators' force with another transient."""
+    return Actuators(actuators.channels, actuators.effects, actuators.step, transient)
 
 
 def pose_actuators(parameters: StepParameters) -> Actuators:
@@ -65,7 +65,7 @@ def make_actuated_advance(
 
     Values and commands are nested; the wrench acts besides the actuators. The composition must have actuators.
     """
-    aim, follow = composition.actuation.aim, composition.actuation.follow
+    targets_of, follow = composition.actuation.targets, composition.actuation.follow
     advance = make_advance(composition)
     read, write = actuators_reader(composition), actuators_writer(composition)
 
@@ -79,8 +79,8 @@ def make_actuated_advance(
         steps: int,
     ) -> Actuated:
         actuators = read(parameters)
-        targets = aim(actuators.channels, values, commands)
-        driven = write(parameters, driven_by(actuators, Drive(values, targets, time)))
+        targets = targets_of(actuators.channels, values, commands)
+        driven = write(parameters, with_transient(actuators, Transient(values, targets, time)))
         outcome = advance(driven, state, wrench, time, steps)
         after = follow(actuators.channels, values, targets, steps * actuators.step)
         return Actuated(outcome, select(outcome.status == ACCEPTED, after, values))
