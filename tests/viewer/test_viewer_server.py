@@ -39,6 +39,10 @@ def port_of(server: ServerProcess) -> int:
     return port
 
 
+def websocket_url(server: ServerProcess) -> str:
+    return server.web_url.replace("http://", "ws://") + "socket"
+
+
 def status(server: ServerProcess, host: str) -> int:
     """The HTTP status of the live page, asked for under a host name."""
     request = urllib.request.Request(server.web_url, headers={"Host": host})
@@ -66,17 +70,31 @@ def test_page_is_served_under_loopback_names_only(server: ServerProcess) -> None
 
 def test_websocket_is_refused_to_foreign_hosts_and_origins(server: ServerProcess) -> None:
     port = port_of(server)
-    with connect(f"ws://127.0.0.1:{port}/", origin=f"http://127.0.0.1:{port}"):
+    with connect(websocket_url(server), origin=f"http://127.0.0.1:{port}"):
         pass
     for foreign in ("http://evil.example", "null", f"http://127.0.0.1:{port + 1}"):
-        with pytest.raises(InvalidStatus, match="403"), connect(f"ws://127.0.0.1:{port}/", origin=foreign):
+        with pytest.raises(InvalidStatus, match="403"), connect(websocket_url(server), origin=foreign):
             pass
     # A rebound name: the browser believes that it talks to evil.example, origin and host agree.
     rebound = socket.create_connection(("127.0.0.1", port))
     with (
         pytest.raises(InvalidStatus, match="404"),
-        connect(f"ws://evil.example:{port}/", sock=rebound, origin=f"http://evil.example:{port}"),
+        connect(
+            websocket_url(server).replace("127.0.0.1", "evil.example"),
+            sock=rebound,
+            origin=f"http://evil.example:{port}",
+        ),
     ):
+        pass
+
+
+def test_nothing_is_served_to_who_does_not_know_the_path(server: ServerProcess) -> None:
+    """Another user of this computer can reach the port."""
+    port = port_of(server)
+    for path in ("", "static/", "socket", "capture", f"{'x' * 22}/"):
+        with pytest.raises(urllib.error.HTTPError, match="404"):
+            urllib.request.urlopen(f"http://127.0.0.1:{port}/{path}", timeout=120)
+    with pytest.raises(InvalidStatus, match="404"), connect(f"ws://127.0.0.1:{port}/"):
         pass
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import shutil
 import signal
@@ -115,6 +116,9 @@ class HeadlessBrowser:
         """
         executable = find_chromium()
         self.profile = Path(tempfile.mkdtemp(prefix="dq_marine_chromium_"))
+        # The address is a secret, and arguments can be read by every user of the computer; this folder cannot.
+        start = self.profile / "start.html"
+        start.write_text(f"<script>location.replace({json.dumps(url)})</script>", encoding="utf-8")
         # Chromium's sandbox refuses to run for root.
         sandbox = ["--no-sandbox"] if os.geteuid() == 0 else []
         self._process = subprocess.Popen(  # noqa: S603
@@ -125,7 +129,7 @@ class HeadlessBrowser:
                 f"--user-data-dir={self.profile}",
                 f"--window-size={width},{height}",
                 *extra_flags,
-                url,
+                start.as_uri(),
             ],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,

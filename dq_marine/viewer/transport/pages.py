@@ -57,7 +57,7 @@ CAPTION_SCRIPT = """
 
 LIVE_SCRIPT = """
   const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
-  viewer.connect();
+  viewer.connect(new URL("socket", location.href).href.replace(/^http/, "ws"));
   viewer.connection.addEventListener("close", () => show("notice", "The simulation has ended."));
 """
 
@@ -69,7 +69,7 @@ CAPTURE_SCRIPT = """
   const set_size = viewer.set_3d_pane_size.bind(viewer);
   viewer.set_3d_pane_size = () => set_size(Number(size.get("width")), Number(size.get("height")));
   viewer.set_3d_pane_size();
-  viewer.connect();
+  viewer.connect(new URL("socket", location.href).href.replace(/^http/, "ws"));
   // The last page closes the browser: it ends with the server even if nobody is left to end it.
   viewer.connection.addEventListener("close", () => window.close());
 """

@@ -1,15 +1,22 @@
 """The viewer's server: meshcat's bridge from ZeroMQ to web pages, for this computer only.
 
-It runs as a process of its own, `python -m dq_marine.viewer.transport.server`, prints one line of JSON with its
-two addresses, and ends when its standard input does, that is, when its parent is gone.
+It runs as a process of its own, `python -m dq_marine.viewer.transport.server`. Its parent writes one line of JSON to its
+standard input, the secrets; it prints one line of JSON with its two addresses, and ends when its standard input does,
+that is, when its parent is gone.
 
-meshcat's own server listens on every network interface. This one listens on the loopback address,
-on free ports, and answers only requests that name the loopback host; a page from elsewhere can
-neither reach it by a rebound name nor open its websocket.
+meshcat's own server listens on every network interface and obeys whoever connects. This one listens on the loopback
+address, on free ports, and two secrets keep out what else runs on this computer, which are other users' programs and
+pages from anywhere in the user's own browser:
+
+- The ZeroMQ port speaks CURVE (https://rfc.zeromq.org/spec/26): bytes from one who does not have the parent's keys, such
+  as a POST from a web page, are dropped in the handshake and never read as messages.
+- The web pages and their websocket are under a path that cannot be guessed. A page from elsewhere can neither reach them
+  by a rebound name nor open their websocket.
 """
 
 from __future__ import annotations
 
+import base64
 import json
 import os
 import sys
@@ -21,7 +28,7 @@ import tornado.netutil
 import tornado.routing
 import tornado.web
 import zmq
-from meshcat.servers.zmqserver import StaticFileHandlerNoCache, WebSocketHandler, ZMQWebSocketBridge
+from meshcat.servers.zmqserver import MESHCAT_COMMANDS, StaticFileHandlerNoCache, WebSocketHandler, ZMQWebSocketBridge
 from zmq.eventloop.zmqstream import ZMQStream
 
 from dq_marine.viewer.libraries import meshcat_page_folder
@@ -30,6 +37,13 @@ from dq_marine.viewer.transport.pages import CAPTURE_PAGE, LIVE_PAGE
 LOOPBACK = "127.0.0.1"
 LOOPBACK_NAMES = r"^(127\.0\.0\.1|localhost)$"
 ANY_FREE_PORT = 0
+KINDS = frozenset(MESHCAT_COMMANDS) | {"capture_image"}
+"""Messages that are carried out."""
+
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+POLICY_VIOLATION = 1008
+"""Status of a websocket that is closed because of what came through it (RFC 6455, section 7.4.1)."""
+
 LARGEST_MESSAGE = 256 * 2**20
 """Bytes in a message from a page; a picture of 8000 x 8000 pixels fits in."""
 
@@ -60,12 +74,36 @@ class LoopbackApplication(tornado.web.Application):
         return server
 
 
-class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has no type hints
-    """meshcat's bridge with its two doors, ZeroMQ and web, on the loopback address."""
+class PageSocket(WebSocketHandler):  # type: ignore[misc]  # meshcat has no type hints
+    """The websocket of a page, which may answer with a picture when it was asked for one, and say nothing else."""
 
-    def __init__(self) -> None:
+    def on_message(self, message: str | bytes) -> None:
+        """Pass a picture on, if one is still wanted; close on anything else."""
+        picture = picture_in(message)
+        if picture is None:
+            self.close(POLICY_VIOLATION, "not a picture")
+        elif self.bridge.wants_picture:
+            self.bridge.give_picture(picture)
+
+
+class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has no type hints
+    """meshcat's bridge with its two doors, ZeroMQ and web, on the loopback address.
+
+    Attributes:
+        wants_picture: whether pages were asked for a picture that none of them has sent yet.
+    """
+
+    def __init__(self, secret_key: str, path: str) -> None:
+        """Open the doors.
+
+        Args:
+            secret_key: the server's, for CURVE.
+            path: under which the pages are.
+        """
+        self._secret_key, self._path = secret_key, path
+        self.wants_picture = False
         super().__init__(zmq_url=f"tcp://{LOOPBACK}:*", host=LOOPBACK, port=ANY_FREE_PORT)
-        self.web_url = f"http://{LOOPBACK}:{self.app.port}/static/"
+        self.web_url = f"http://{LOOPBACK}:{self.app.port}/{path}/"
 
     def make_app(self) -> LoopbackApplication:
         """Routes for the loopback host names; every other name gets `404 Not Found`.
@@ -74,23 +112,56 @@ class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has n
         """
         folder = {"path": str(meshcat_page_folder())}
         routes = [
-            (r"/", WebSocketHandler, {"bridge": self}),
-            (r"/static/", PageHandler, {"page": LIVE_PAGE}),
-            (r"/static/capture", PageHandler, {"page": CAPTURE_PAGE}),
-            (r"/static/(.*)", StaticFileHandlerNoCache, folder),
+            (rf"/{self._path}/socket", PageSocket, {"bridge": self}),
+            (rf"/{self._path}/", PageHandler, {"page": LIVE_PAGE}),
+            (rf"/{self._path}/capture", PageHandler, {"page": CAPTURE_PAGE}),
+            (rf"/{self._path}/(.*)", StaticFileHandlerNoCache, folder),
         ]
         here = tornado.routing.HostMatches(LOOPBACK_NAMES)
         return LoopbackApplication([(here, routes)], websocket_max_message_size=LARGEST_MESSAGE)
 
     def setup_zmq(self, url: str) -> tuple[zmq.Socket[bytes], ZMQStream, str]:
-        """As in meshcat, but report the port that the operating system chose."""
-        socket, stream, _ = super().setup_zmq(url)
+        """As in meshcat, but for those who have the keys, and report the port that the operating system chose."""
+        socket: zmq.Socket[bytes] = self.context.socket(zmq.REP)
+        socket.curve_secretkey = self._secret_key.encode()
+        socket.curve_server = True
+        socket.bind(url)
+        stream = ZMQStream(socket)
+        stream.on_recv(self.handle_zmq)
         return socket, stream, socket.getsockopt_string(zmq.LAST_ENDPOINT)
+
+    def handle_zmq(self, frames: list[bytes]) -> None:
+        """Carry a message out, or say what is wrong with it."""
+        try:
+            kind, path, _content = frames
+            known = kind.decode() in KINDS and path.decode() is not None
+        except ValueError:
+            known = False
+        if not known:
+            self.zmq_socket.send(b"error: not a message of meshcat's protocol")
+            return
+        self.wants_picture = kind == b"capture_image"
+        super().handle_zmq(frames)
+
+    def give_picture(self, picture: bytes) -> None:
+        """Answer the request for a picture."""
+        self.wants_picture = False
+        self.zmq_stream.send(picture)
+
+
+def picture_in(message: str | bytes) -> bytes | None:
+    """Return the picture that a page has sent, a PNG file; None if it is something else."""
+    try:
+        start, _, code = json.loads(message)["data"].partition(",")
+        picture = base64.b64decode(code, validate=True)
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        return None
+    return picture if start == "data:image/png;base64" and picture.startswith(PNG_SIGNATURE) else None
 
 
 def main() -> None:
     """Serve until standard input ends."""
-    bridge = LoopbackBridge()
+    bridge = LoopbackBridge(**json.loads(sys.stdin.readline()))
     loop = tornado.ioloop.IOLoop.current()
 
     def stop_at_end(_file: Any, _events: int) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import secrets
 import selectors
 import subprocess
 import sys
@@ -21,6 +22,11 @@ START_TIMEOUT = 30.0
 REPLY_TIMEOUT = 10.0
 STOP_TIMEOUT = 2.0
 """Seconds to wait for the server's start, for its answer to a message, and for its orderly end."""
+
+_NO_START = (
+    f"the viewer's server did not start within {START_TIMEOUT:g} s; to see why, run: "
+    "echo '{}' | python -m dq_marine.viewer.transport.server"
+)
 
 POLL_SECONDS = 0.2
 """How often a long wait looks whether it has become hopeless."""
@@ -44,15 +50,17 @@ class ServerProcess:
         for name in ("umsgpack", "tornado"):
             drawing_library(name)
         self._zmq = drawing_library("zmq")
+        public_key, secret_key = self._zmq.curve_keypair()
         self._process = _start()
         self._stop = weakref.finalize(self, _stop, self._process, os.getpid())
         try:
+            _tell(self._process, {"secret_key": secret_key.decode(), "path": secrets.token_urlsafe(16)})
             addresses = _read_addresses(self._process)
         except ViewerError:
             self._stop()
             raise
         self.web_url: str = addresses["web"]
-        self._socket = _connected(self._zmq, addresses["zmq"])
+        self._socket = _connected(self._zmq, addresses["zmq"], public_key)
         # Dropped or forgotten, a viewer still ends its server and its connection.
         weakref.finalize(self, self._socket.close, 0)
 
@@ -127,6 +135,15 @@ def _start() -> subprocess.Popen[bytes]:
     )
 
 
+def _tell(process: subprocess.Popen[bytes], told: dict[str, str]) -> None:
+    """Write the server's first line, which nobody else can read."""
+    try:
+        process.stdin.write(json.dumps(told).encode() + b"\n")  # type: ignore[union-attr]
+        process.stdin.flush()  # type: ignore[union-attr]
+    except BrokenPipeError as error:
+        raise ViewerError(_NO_START) from error
+
+
 def _read_addresses(process: subprocess.Popen[bytes]) -> dict[str, str]:
     """The server's first line, which gives its two addresses."""
     line = b""
@@ -135,17 +152,16 @@ def _read_addresses(process: subprocess.Popen[bytes]) -> dict[str, str]:
         if selector.select(START_TIMEOUT):
             line = process.stdout.readline()  # type: ignore[union-attr]
     if not line:
-        raise ViewerError(
-            f"the viewer's server did not start within {START_TIMEOUT:g} s; to see why, run: "
-            "python -m dq_marine.viewer.transport.server"
-        )
+        raise ViewerError(_NO_START)
     addresses: dict[str, str] = json.loads(line)
     return addresses
 
 
-def _connected(zmq: Any, url: str) -> Any:
-    """A request socket to the server."""
+def _connected(zmq: Any, url: str, server_key: bytes) -> Any:
+    """A request socket to the server that has the secret half of this key, encrypted by CURVE."""
     socket = zmq.Context.instance().socket(zmq.REQ)
+    socket.curve_serverkey = server_key
+    socket.curve_publickey, socket.curve_secretkey = zmq.curve_keypair()
     socket.linger = 0
     # A request whose wait was interrupted, as by Ctrl-C, must not spoil the next one.
     socket.req_relaxed = True
