@@ -16,6 +16,7 @@ import numpy as np
 from numba.extending import overload, register_jitable
 
 from dq_marine.backend.disk_cache import keep_on_disk
+from dq_marine.backend.garbage import collect_garbage_rarely_while_compiling
 from dq_marine.backend.selection import PROVIDED
 
 CONSTANT_TYPES = (bool, int, float, complex, str, tuple, np.ndarray)
@@ -123,6 +124,7 @@ def compile_function(
         The compiled function; it is loaded from disk if sources, Numba and processor are those of the last
         time.
     """
+    collect_garbage_rarely_while_compiling()
     for part in apart:
         compile_apart(part)
     used = all_used_functions(function)

@@ -9,6 +9,7 @@ place here: it finds solutions, but not necessarily on the branch that starts at
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
@@ -224,8 +225,9 @@ def make_split_drift(drift: Drift) -> Drift:
     return split_drift
 
 
+@functools.cache
 def make_drift(scheme: DriftScheme) -> Drift:
-    """Return the fast drift: Newton from a good guess."""
+    """Return the fast drift: Newton from a good guess. It is one function, which is compiled once."""
     return make_drift_by(scheme, make_direct(scheme))
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.spatial import Spatial, from_fossen
-from dq_marine.algebra.vector3 import dot
+from dq_marine.algebra.vector3 import bounded, bounded_vector, dot
 from dq_marine.integrator.actuation import NO_WRENCH
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.step import Composition, StepOutcome, StepParameters, make_advance
@@ -123,15 +123,27 @@ def make_sum_of_squares(size: int, first: int = 0) -> Callable[[tuple[float, ...
 
 def make_saturated(size: int, first: int = 0) -> Callable[[Any], Any]:
     """Return (action) -> its numbers from `first` to `size`, each held within -1 and 1."""
-    if first == size - 1:
+    if size - first == 1:
 
         def saturated_last(action: Any) -> Any:
-            return (max(-1.0, min(1.0, action[first])),)
+            return (bounded(action[first], 1.0),)
 
         return saturated_last
-    rest = make_saturated(size, first + 1)
+    if size - first == 2:
+
+        def saturated_two(action: Any) -> Any:
+            return (bounded(action[first], 1.0), bounded(action[first + 1], 1.0))
+
+        return saturated_two
+
+    def saturated_three(action: Any) -> Any:
+        return bounded_vector((action[first], action[first + 1], action[first + 2]), 1.0)
+
+    if size - first == 3:
+        return saturated_three
+    rest = make_saturated(size, first + 3)
 
     def saturated(action: Any) -> Any:
-        return (max(-1.0, min(1.0, action[first])), *rest(action))
+        return (*saturated_three(action), *rest(action))
 
     return saturated

@@ -21,17 +21,15 @@ def with_actuators(task: EpisodeTask, actuation: Actuation) -> EpisodeTask:
     first_reading, later_reading = task.sensing.first, task.sensing.later
     rest = actuation.rest
 
-    def initial_memory(
-        parameters: EpisodeParameters, begun: Start, uniforms: tuple[float, ...]
-    ) -> ActuatedMemory:
+    def initial_memory(parameters: Any, begun: Start, uniforms: tuple[float, ...]) -> ActuatedMemory:
         return ActuatedMemory(first_memory(parameters, begun, uniforms), rest)
 
     def update_memory(
-        parameters: EpisodeParameters, memory: ActuatedMemory, motion: Motion, measured: Motion
+        parameters: Any, memory: ActuatedMemory, motion: Motion, measured: Motion
     ) -> ActuatedMemory:
         return ActuatedMemory(next_memory(parameters, memory.task, motion, measured), memory.values)
 
-    def observe(parameters: EpisodeParameters, memory: ActuatedMemory, motion: Motion) -> Any:
+    def observe(parameters: Any, memory: ActuatedMemory, motion: Motion) -> Any:
         return observe_task(parameters, memory.task, motion)
 
     def outcome(

@@ -80,7 +80,10 @@ NO_SENSORS = Sensing(sense_nothing, 0, sense_nothing, 0)
 
 @dataclass(frozen=True)
 class EpisodeTask:
-    """The functions that an episode runs. Their parameters are `EpisodeParameters`.
+    """The functions that an episode runs.
+
+    `start`, `initial_memory`, `update_memory` and `observe` take the task's own parameters, as in `task.protocol`;
+    `outcome` and the sensors take `EpisodeParameters`.
 
     Attributes:
         draws: how many uniform random numbers in [0, 1) `start` and `initial_memory` take.
@@ -94,28 +97,46 @@ class EpisodeTask:
     """
 
     draws: int
-    start: Callable[[EpisodeParameters, tuple[float, ...]], Start]
-    initial_memory: Callable[[EpisodeParameters, Start, tuple[float, ...]], Any]
-    update_memory: Callable[[EpisodeParameters, Any, Motion, Motion], Any]
-    observe: Callable[[EpisodeParameters, Any, Motion], Any]
+    start: Callable[[Any, tuple[float, ...]], Start]
+    initial_memory: Callable[[Any, Start, tuple[float, ...]], Any]
+    update_memory: Callable[[Any, Any, Motion, Motion], Any]
+    observe: Callable[[Any, Any, Motion], Any]
     outcome: Callable[[EpisodeParameters, Any, Motion, float], TaskOutcome]
     no_rewards: Any
     sensing: Sensing = NO_SENSORS
 
 
-def no_sum(total: float, terms: Any) -> float:
+def no_sum(total: float, terms: tuple[float, ...]) -> float:
     """Return the total."""
     return total
 
 
-def make_sum(count: int, first: int = 0) -> Callable[[float, Any], float]:
+def make_sum(count: int, first: int = 0) -> Callable[[float, tuple[float, ...]], float]:
     """Return (total, tuple) -> the total plus the tuple's numbers from `first` to `count`, added from the left."""
     if first == count:
         return no_sum
-    rest = make_sum(count, first + 1)
+    if count - first == 1:
 
-    def add_terms(total: float, terms: Any) -> float:
-        return rest(total + terms[first], terms)
+        def add_last(total: float, terms: tuple[float, ...]) -> float:
+            return total + terms[first]
+
+        return add_last
+    if count - first == 2:
+
+        def add_two(total: float, terms: tuple[float, ...]) -> float:
+            return total + terms[first] + terms[first + 1]
+
+        return add_two
+
+    def add_three(total: float, terms: tuple[float, ...]) -> float:
+        return total + terms[first] + terms[first + 1] + terms[first + 2]
+
+    if count - first == 3:
+        return add_three
+    rest = make_sum(count, first + 3)
+
+    def add_terms(total: float, terms: tuple[float, ...]) -> float:
+        return rest(add_three(total, terms), terms)
 
     return add_terms
 
@@ -141,6 +162,12 @@ def make_total(own: int, extra: int) -> Callable[[Any, Any], float]:
     """Return (terms of the task, terms added) -> the reward: their sum, added from the left."""
     add_own, add_extra = make_sum(own, 1), make_sum(extra)
 
+    def total_of_own(terms: Any, extras: Any) -> float:
+        return add_own(terms[0], terms)
+
+    if not extra:
+        return total_of_own
+
     def total(terms: Any, extras: Any) -> float:
         return add_extra(add_own(terms[0], terms), extras)
 
@@ -155,22 +182,8 @@ def episode_task(task: Task, extra_rewards: tuple[Callable[[Situation], float], 
         task: with at least one term of reward.
         extra_rewards: functions of terms that are added to its reward.
     """
-    start_task, first_memory, next_memory = task.start, task.initial_memory, task.update_memory
-    observe_task, measure, reward = task.observe, task.measure, task.reward
-    ended, done = task.terminated, task.succeeded
+    measure, reward, ended, done = task.measure, task.reward, task.terminated, task.succeeded
     extras, total = make_extras(extra_rewards), make_total(len(task.rewards._fields), len(extra_rewards))
-
-    def start(parameters: EpisodeParameters, uniforms: tuple[float, ...]) -> Start:
-        return start_task(parameters.task, uniforms)
-
-    def initial_memory(parameters: EpisodeParameters, begun: Start, uniforms: tuple[float, ...]) -> Any:
-        return first_memory(parameters.task, begun, uniforms)
-
-    def update_memory(parameters: EpisodeParameters, memory: Any, motion: Motion, measured: Motion) -> Any:
-        return next_memory(parameters.task, memory, motion, measured)
-
-    def observe(parameters: EpisodeParameters, memory: Any, motion: Motion) -> Any:
-        return observe_task(parameters.task, memory, motion)
 
     def outcome(
         parameters: EpisodeParameters, memory: Any, motion: Motion, action_squares: float
@@ -186,4 +199,6 @@ def episode_task(task: Task, extra_rewards: tuple[Callable[[Situation], float], 
         return TaskOutcome(total(terms, added), terminated, Report(metrics, (terms, added), success))
 
     none = (task.rewards(*(0.0,) * len(task.rewards._fields)), (0.0,) * len(extra_rewards))
-    return EpisodeTask(task.draws, start, initial_memory, update_memory, observe, outcome, none)
+    return EpisodeTask(
+        task.draws, task.start, task.initial_memory, task.update_memory, task.observe, outcome, none
+    )

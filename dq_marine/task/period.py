@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import Vector3
-from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.body import BodyState, Motion
 from dq_marine.integrator.step import (
     ACCEPTED,
     Composition,
@@ -36,6 +36,7 @@ class PeriodOutcome(NamedTuple):
     step: StepOutcome
     water: Any
     current_ned: Vector3
+    motion: Motion
     memory: Any
     observation: Any
     task: TaskOutcome
@@ -88,21 +89,18 @@ def make_control_period(
         water = choose_water(taken, moving, parameters.water)
         motion = motion_of(in_water(parameters, water), step.state)
         sensed = sense(episode, acted, motion, uniforms.sensing)
-        memory_after = select(taken, update(episode, sensed, motion, motion), memory)
+        memory_after = select(taken, update(episode.task, sensed, motion, motion), memory)
         result = outcome(episode, memory_after, motion, sum_of_squares(action))
-        report = result.report
-        rewards = select(taken, report.rewards, spread(no_rewards, result.reward))
+        report, nothing = result.report, spread((no_rewards, 0.0, 1.0), result.reward)
+        told = select(taken, (report.rewards, result.reward, result.terminated), nothing)
         return PeriodOutcome(
             step,
             water,
             velocity(water, step.state.pose),
+            motion,
             memory_after,
-            observe(episode, memory_after, motion),
-            TaskOutcome(
-                select(taken, result.reward, 0.0),
-                select(taken, result.terminated, 1.0),
-                Report(report.metrics, rewards, report.success),
-            ),
+            observe(episode.task, memory_after, motion),
+            TaskOutcome(told[1], told[2], Report(report.metrics, told[0], report.success)),
         )
 
     return control_period

@@ -68,7 +68,7 @@ def make_draw(
     def draw(episode: EpisodeParameters, currents: CurrentDraw, uniforms: tuple[float, ...]) -> Drawn:
         current = current_of(currents, uniforms[0], uniforms[1])
         for_task = uniforms[CURRENT_DRAWS:sensing_from]
-        return Drawn(start_of(episode, for_task), current, for_task, uniforms[sensing_from:])
+        return Drawn(start_of(episode.task, for_task), current, for_task, uniforms[sensing_from:])
 
     return draw
 
@@ -86,14 +86,14 @@ def make_beginning(
         start, flowing = drawn.start, in_water(parameters, flow(parameters.water, drawn.current_ned))
         state = place(flowing, start.position_ned, start.attitude, start.velocity)
         motion = motion_of(flowing, state)
-        empty = initial_memory(episode, start, drawn.for_task)
+        empty = initial_memory(episode.task, start, drawn.for_task)
         memory = sense(episode, empty, motion, drawn.for_sensing)
         return Beginning(
             flowing.water,
             velocity(flowing.water, state.pose),
             state,
             memory,
-            observe(episode, memory, motion),
+            observe(episode.task, memory, motion),
             first_report(episode, memory, motion),
         )
 

@@ -164,7 +164,7 @@ class ComposedTask:
     def blank_memory(self) -> Any:
         """A memory at an episode's start, to tell its structure by."""
         drawn = self._blank_start()
-        return self.task.initial_memory(self.episode_parameters({}), drawn.start, drawn.for_task)
+        return self.task.initial_memory(self.episode_parameters({}).task, drawn.start, drawn.for_task)
 
     def checked_options(self, options: dict[str, Any] | None) -> dict[str, NDArray[np.float64]]:
         """Return reset's options as arrays.

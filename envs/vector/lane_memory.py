@@ -64,8 +64,15 @@ class LaneMemory:
         bodies: number of environments, padding included.
     """
 
-    def __init__(self, singles: Sequence[MarineEnv], n: int, lanes: Lanes) -> None:
-        """Lay out n environments like `singles`, one for all or one for each."""
+    def __init__(self, singles: Sequence[MarineEnv], n: int, lanes: Lanes, *, keeps_ends: bool) -> None:
+        """Lay out n environments like `singles`, one for all or one for each.
+
+        Args:
+            singles: the environments.
+            n: how many there are to be.
+            lanes: the type of their numbers.
+            keeps_ends: whether what an episode ends with is kept beside what the next one begins with.
+        """
         self.n = n
         first = singles[0]
         parameters = [single.base_parameters for single in singles]
@@ -84,7 +91,7 @@ class LaneMemory:
             first.time_varying,
         )
         self.bodies = -(-n // lanes.width) * lanes.width
-        self.arrays = self._arrays(first)
+        self.arrays = self._arrays(first, self.bodies if keeps_ends else 0)
         self._action_size = first.action_mapping.size
         self.fill(self.layout.parameters, self.arrays.shared, self.arrays.parameters, parameters)
         self.set_default_episodes(episodes)
@@ -169,7 +176,7 @@ class LaneMemory:
         """Return one field of the last period's outcomes, shape (n,)."""
         return self.arrays.outcomes[:, field, :].reshape(-1)[: self.n]  # type: ignore[no-any-return]
 
-    def _arrays(self, single: MarineEnv) -> PeriodArrays:
+    def _arrays(self, single: MarineEnv, ends: int) -> PeriodArrays:
         layout, bodies = self.layout, self.bodies
         lanes = layout.lanes
         observed, told = single.observation_bound.size, len(single.report_names) + SUCCESS_AND_CURRENT
@@ -191,12 +198,12 @@ class LaneMemory:
             clocks=np.zeros(bodies),
             ended=np.zeros(bodies, np.bool_),
             observations=aligned_zeros((bodies, observed), np.float32),
-            final_observations=aligned_zeros((bodies, observed), np.float32),
+            final_observations=aligned_zeros((ends, observed), np.float32),
             rewards=np.zeros(bodies),
             terminated=np.zeros(bodies, np.bool_),
             truncated=np.zeros(bodies, np.bool_),
             reports=aligned_zeros((told, bodies), np.float64),
-            final_reports=aligned_zeros((told, bodies), np.float64),
+            final_reports=aligned_zeros((told, ends), np.float64),
         )
 
     def _read(

@@ -33,13 +33,14 @@ class LaneSingles:
         fallbacks: substeps that plain Newton did not solve, so far, shape (n,).
     """
 
-    def __init__(self, singles: list[MarineEnv], n: int, lanes: Lanes) -> None:
-        """Lay out n environments like `singles`, one for all or one for each."""
+    def __init__(self, singles: list[MarineEnv], n: int, lanes: Lanes, *, keeps_ends: bool) -> None:
+        """Lay out n environments like `singles`, one for all or one for each; see `LaneMemory` for the arguments."""
         self._singles = singles
         self._lanes = lanes
+        self._keeps_ends = keeps_ends
         self.n = n
         self.first = singles[0]
-        self.memory = LaneMemory(singles, n, lanes)
+        self.memory = LaneMemory(singles, n, lanes, keeps_ends=keeps_ends)
         self.seeds: list[int | None] = [None] * n
         self.actions = np.zeros((n, self.first.action_mapping.size))
         self.fallbacks = np.zeros(n, np.int64)
@@ -119,7 +120,7 @@ class LaneSingles:
             self.memory.set_default_episodes(episodes)
             return False
         old = self.memory
-        self.memory = LaneMemory(self._singles, self.n, self._lanes)
+        self.memory = LaneMemory(self._singles, self.n, self._lanes, keeps_ends=self._keeps_ends)
         self.memory.take_over(old)
         return True
 

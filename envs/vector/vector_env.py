@@ -102,7 +102,9 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self.autoreset_mode = checked_mode(autoreset_mode)
         singles = made_singles(definition, vehicle, self.num_envs, single_arguments)
         single = singles[0]
-        self._lanes = LaneSingles(singles, self.num_envs, lanes_of(precision, arithmetic))
+        keeps_ends = self.autoreset_mode is AutoresetMode.SAME_STEP
+        lanes = lanes_of(precision, arithmetic)
+        self._lanes = LaneSingles(singles, self.num_envs, lanes, keeps_ends=keeps_ends)
         self._threads = threads
         self._workers = Workers(threads, len(self._memory.arrays.states))
         self._compile()

@@ -36,6 +36,10 @@ class VectorInfos:
         self._everywhere = np.ones(lanes.n, np.bool_)
         self._none_refused = np.zeros(lanes.n, np.bool_)
         self._flown = np.zeros(lanes.n)
+        self._has_vehicles = lanes.first.pool.has_choice
+        self._names = lanes.first.report_names
+        told = (*self._names, "is_success", "current_ned", "refused", *(("vehicle",) * self._has_vehicles))
+        self._masks = tuple(f"_{name}" for name in told)
         self.episodes_refused = 0
         self.refusals: dict[int, dict[str, Any]] = {}
 
@@ -68,29 +72,20 @@ class VectorInfos:
         infos |= {"final_obs": observations, "_final_obs": ended.copy()}
         return infos | {"final_info": self._reported(ended, refused, final=True), "_final_info": ended.copy()}
 
-    @property
-    def _has_vehicles(self) -> bool:
-        return self._lanes.first.pool.has_choice
-
     def _reported(self, where: Flags, refused: Flags, *, final: bool = False) -> dict[str, Any]:
         """Return what is told of some environments, with masks."""
-        arrays, single, n = self._lanes.memory.arrays, self._lanes.first, self._lanes.n
+        arrays, n, count = self._lanes.memory.arrays, self._lanes.n, len(self._names)
         rows = (arrays.final_reports if final else arrays.reports)[:, :n]
-        everywhere = where is self._everywhere
-        names = single.report_names
-        infos: dict[str, Any] = {
-            name: self._given(row) if everywhere else np.where(where, row, 0.0)
-            for name, row in zip(names, rows, strict=False)
-        }
-        success, currents = rows[len(names)] != 0.0, rows[len(names) + 1 :].T
-        infos["is_success"] = success if everywhere else success & where
-        infos["current_ned"] = currents.copy() if everywhere else np.where(where[:, None], currents, 0.0)
+        rows = self._given(rows) if where is self._everywhere else np.where(where, rows, 0.0)
+        infos: dict[str, Any] = dict(zip(self._names, rows, strict=False))
+        infos["is_success"] = rows[count] != 0.0
+        infos["current_ned"] = rows[count + 1 :].T
         infos["refused"] = refused & where
         if self._has_vehicles:
             flown = self._flown if final else arrays.vehicles[:n]
             infos["vehicle"] = np.where(where, flown, 0.0).astype(np.int64)
-        mask = self._given(where)
-        return infos | {f"_{name}": mask for name in infos}
+        infos.update(dict.fromkeys(self._masks, self._given(where)))
+        return infos
 
     def _refused(self) -> Flags:
         """Return where the integrator refused the step, and keep why."""

@@ -77,12 +77,13 @@ class PeriodArrays(NamedTuple):
         clocks: time at the episode's beginning [s].
         ended: whether the last period ended the episode.
         observations: shape (bodies, observed).
-        final_observations: the same of episodes that ended in the last period.
+        final_observations: the same of episodes that ended in the last period; without rows where those that follow
+            begin in the next step, and end and beginning are told one after the other.
         rewards: of the last period.
         terminated: whether the task ended.
         truncated: whether the time limit was met.
         reports: `task.episode.Report` at the period's end and the current in NED, a row for each number.
-        final_reports: the same of episodes that ended in the last period.
+        final_reports: the same of episodes that ended in the last period; likewise.
     """
 
     shared: Any
@@ -132,6 +133,17 @@ def make_time(layout: PeriodLayout, load_numbers: Callable[..., Any]) -> Callabl
     return time_by_clock if layout.time_varying else time_from_zero
 
 
+def keep_ends(arrays: PeriodArrays, block: int, ended: bool, end: Beginning) -> None:
+    """Keep what episodes ended with: new ones take their places in the same step."""
+    if some(ended):
+        store_rows(arrays.final_observations, block, end.observation)
+        store_columns(arrays.final_reports, block, (end.report, end.current_ned))
+
+
+def keep_no_ends(arrays: PeriodArrays, block: int, ended: bool, end: Beginning) -> None:
+    """Leave what episodes end with where it is told."""
+
+
 def keep_nothing(blocks: Any, block: int, parameters: StepParameters) -> None:
     """Leave the parameters: their water does not change by itself."""
 
@@ -165,7 +177,7 @@ def compiled_begin(composition: Composition, task: EpisodeTask, layout: PeriodLa
                     spread(velocity(parameters.water, state.pose), motion.position_ned[0]),
                     state,
                     memory,
-                    observe(episode, memory, motion),
+                    observe(episode.task, memory, motion),
                     first_report(episode, memory, motion),
                 )
                 bodies = lane_numbers(motion.position_ned[0], block)
@@ -208,10 +220,11 @@ def compiled_period(
     store_episode, store_outcome = writers.episode, writers.outcome
     renew_vehicle = make_renew_vehicle(layout.pool, layout.lanes)
     control_period = make_control_period(composition, task)
-    begin_one, motion_of = make_begin_one(composition, task, layout.time_varying), make_motion(composition)
+    begin_one = make_begin_one(composition, task, layout.time_varying)
     time_at = make_time(layout, load_numbers)
     draw_uniforms = make_lane_uniforms(composition.water.draws, task.sensing.later_draws)
     keep_water = store_parameters if composition.water.draws else keep_nothing
+    keep_end = keep_ends if renewal is renew_at_same_step else keep_no_ends
 
     def period_blocks(
         first: int,
@@ -247,7 +260,7 @@ def compiled_period(
             store_rows(arrays.truncated, block, truncated)
             store_rows(arrays.ended, block, waiting)
             store_rows(arrays.periods, block, select(renewed, 0.0, elapsed))
-            velocity = motion_of(in_water(parameters, outcome.water), step.state).velocity
+            velocity = outcome.motion.velocity
             spin, speed = dot(velocity.angular, velocity.angular), dot(velocity.linear, velocity.linear)
             report = (step.status, step.completed, step.fallbacks, step.residual_squared, spin, speed)
             store_outcome(arrays.outcomes, block, select(idle, (ACCEPTED, 0, 0, 0.0, 0.0, 0.0), report))
@@ -260,9 +273,7 @@ def compiled_period(
                 outcome.observation,
                 result.report,
             )
-            if some(ended):
-                store_rows(arrays.final_observations, block, outcome.observation)
-                store_columns(arrays.final_reports, block, (begun.report, begun.current_ned))
+            keep_end(arrays, block, ended, begun)
             if some(renewed):
                 default_episode = load_episode(arrays.shared_episode, arrays.default_episodes, block)
                 parameters, default_episode = renew_vehicle(

@@ -125,7 +125,7 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
     observe_task, task_outcome = task.observe, task.outcome
     blank = blank_readings(instruments)
 
-    def initial_memory(parameters: EpisodeParameters, begun: Start, uniforms: tuple[float, ...]) -> Sensed:
+    def initial_memory(parameters: Any, begun: Start, uniforms: tuple[float, ...]) -> Sensed:
         return Sensed(first_memory(parameters, begun, uniforms), blank)
 
     def first(parameters: EpisodeParameters, memory: Sensed, motion: Motion, uniforms: Any) -> Sensed:
@@ -134,13 +134,11 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
     def later(parameters: EpisodeParameters, memory: Sensed, motion: Motion, uniforms: Any) -> Sensed:
         return Sensed(memory.task, read_later(parameters.sensors, memory.readings, motion, uniforms))
 
-    def update_memory(
-        parameters: EpisodeParameters, memory: Sensed, motion: Motion, measured: Motion
-    ) -> Sensed:
+    def update_memory(parameters: Any, memory: Sensed, motion: Motion, measured: Motion) -> Sensed:
         told = believe(memory.readings, measured)
         return Sensed(next_memory(parameters, memory.task, motion, told), memory.readings)
 
-    def observe(parameters: EpisodeParameters, memory: Sensed, motion: Motion) -> Any:
+    def observe(parameters: Any, memory: Sensed, motion: Motion) -> Any:
         told = believe(memory.readings, motion)
         return (observe_task(parameters, memory.task, told), show(memory.readings))
 

@@ -1,17 +1,17 @@
 """The viewer's server: meshcat's bridge from ZeroMQ to web pages, for this computer only.
 
-It runs as a process of its own, `python -m dq_marine.viewer.transport.server`. Its parent writes one line of JSON to its
-standard input, the secrets; it prints one line of JSON with its two addresses, and ends when its standard input does,
-that is, when its parent is gone.
+It runs as a process of its own, `python -m dq_marine.viewer.transport.server`. Its parent writes one line of JSON to
+its standard input, the secrets; it prints one line of JSON with its two addresses, and ends when its standard input
+does, that is, when its parent is gone.
 
 meshcat's own server listens on every network interface and obeys whoever connects. This one listens on the loopback
-address, on free ports, and two secrets keep out what else runs on this computer, which are other users' programs and
-pages from anywhere in the user's own browser:
+address, on free ports, and two secrets keep out what else can reach those: other users' programs, and pages from
+anywhere in the user's own browser.
 
-- The ZeroMQ port speaks CURVE (https://rfc.zeromq.org/spec/26): bytes from one who does not have the parent's keys, such
-  as a POST from a web page, are dropped in the handshake and never read as messages.
-- The web pages and their websocket are under a path that cannot be guessed. A page from elsewhere can neither reach them
-  by a rebound name nor open their websocket.
+- The ZeroMQ port speaks CURVE (https://rfc.zeromq.org/spec/26). Bytes from one who does not have the parent's keys,
+  such as a POST from a web page, are dropped in the handshake and never read as messages.
+- The web pages and their websocket are under a path that cannot be guessed. A page from elsewhere can neither reach
+  them by a rebound name nor open their websocket.
 """
 
 from __future__ import annotations
@@ -28,7 +28,12 @@ import tornado.netutil
 import tornado.routing
 import tornado.web
 import zmq
-from meshcat.servers.zmqserver import MESHCAT_COMMANDS, StaticFileHandlerNoCache, WebSocketHandler, ZMQWebSocketBridge
+from meshcat.servers.zmqserver import (
+    MESHCAT_COMMANDS,
+    StaticFileHandlerNoCache,
+    WebSocketHandler,
+    ZMQWebSocketBridge,
+)
 from zmq.eventloop.zmqstream import ZMQStream
 
 from dq_marine.viewer.libraries import meshcat_page_folder
