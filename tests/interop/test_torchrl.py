@@ -51,3 +51,9 @@ def test_the_vector_environment():
     """Without autoreset, which TorchRL prefers; with "SameStep" it reads the last observation, and no other infos."""
     envs = gym.make_vec(ID, num_envs=3, max_episode_steps=LENGTH, autoreset_mode="Disabled")
     assert_rollout_has_infos(GymWrapper(envs).auto_register_info_dict())
+
+
+def test_several_by_their_id():
+    """`num_envs` has TorchRL make worker processes; the id names the module that they must import."""
+    env = GymEnv(f"dq_marine:{ID}", num_envs=2, max_episode_steps=LENGTH)
+    assert_rollout_has_infos(env)  # it has registered the infos by itself
