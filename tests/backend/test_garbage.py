@@ -4,6 +4,7 @@ import gc
 
 import pytest
 from numba.core import event
+from support.child_compilation import HERE
 
 from dq_marine.backend.compilation import compile_function
 from dq_marine.backend.garbage import WHILE_COMPILING
@@ -36,6 +37,7 @@ def thresholds():
 @pytest.mark.parametrize("own", [(700, 10, 10), (50_000, 5, 5), (0, 10, 10)], ids=["usual", "rare", "off"])
 def test_thresholds_are_raised_while_compiling_only(own, thresholds, monkeypatch, tmp_path):
     monkeypatch.setenv("DQ_MARINE_CACHE_DIR", str(tmp_path))  # empty, so that there is something to compile
+    monkeypatch.setenv(HERE, "1")  # not in a child
     compiled = compile_function(triple, "a test")
     gc.set_threshold(*own)
     with event.install_listener("numba:compile", Recorder()) as recorder:
