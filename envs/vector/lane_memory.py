@@ -193,7 +193,7 @@ class LaneMemory:
             pool=single.pool.rows,
             vehicles=np.zeros(bodies),
             currents=pack(single.current_draw),
-            chosen=np.full((bodies, CHOSEN_COLUMNS), np.nan),
+            chosen=np.full((1, CHOSEN_COLUMNS), np.nan),
             periods=np.zeros(bodies),
             clocks=np.zeros(bodies),
             ended=np.zeros(bodies, np.bool_),

@@ -34,6 +34,7 @@ from dq_marine.envs.vector.vector_options import (
     checked_mask,
     checked_mode,
     checked_seeds,
+    chosen_rows,
     split_options,
 )
 from dq_marine.errors import InvalidInputError
@@ -369,13 +370,8 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         self._memory.reset_episodes(mask)
         if {*for_all, *for_each} - set(CHOSEN_SLICES):
             self._memory.set_episodes(wanted, self._lanes.episodes(for_all, for_each))
-        for name, columns in CHOSEN_SLICES.items():
-            if name in for_all:
-                arrays.chosen[:n, columns] = for_all[name]
-            elif name in for_each:
-                arrays.chosen[:n, columns] = for_each[name]
-        self._workers.run(self._begin_compiled, arrays, mask)
-        arrays.chosen[:] = np.nan
+        chosen = chosen_rows(for_all, for_each, n, self._memory.bodies)
+        self._workers.run(self._begin_compiled, arrays._replace(chosen=chosen), mask)
         arrays.periods[mask] = 0.0
         arrays.ended[mask] = False
 

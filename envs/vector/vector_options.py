@@ -9,6 +9,7 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
+from dq_marine.backend.simd.draws import CHOSEN_COLUMNS
 from dq_marine.checks import finite_rows, unit_quaternion_rows
 from dq_marine.envs.core.start import START_OPTIONS
 from dq_marine.errors import InvalidInputError
@@ -22,6 +23,17 @@ CHOSEN_SLICES = {
 """Where the options of a start stand in a row of `PeriodArrays.chosen`."""
 
 RESET_MASK = "reset_mask"
+
+
+def chosen_rows(
+    for_all: Mapping[str, Any], for_each: Mapping[str, Any], n: int, bodies: int
+) -> NDArray[np.float64]:
+    """Return `PeriodArrays.chosen` for checked options of n environments, padded to so many bodies."""
+    given = [name for name in CHOSEN_SLICES if name in for_all or name in for_each]
+    chosen = np.full((bodies if given else 1, CHOSEN_COLUMNS), np.nan)
+    for name in given:
+        chosen[:n, CHOSEN_SLICES[name]] = for_all[name] if name in for_all else for_each[name]
+    return chosen
 
 
 def checked_seeds(seed: int | Sequence[int | None] | None, n: int) -> list[int | None]:

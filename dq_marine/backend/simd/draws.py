@@ -93,7 +93,8 @@ def make_begin_one(composition: Composition, task: EpisodeTask, time_varying: bo
     ) -> Any:
         uniforms = draw_uniforms(generators, body)
         set_clock(generators, clocks, body)
-        drawn = as_chosen_in(chosen[body], draw(episode, load_currents(currents), uniforms))
+        row = chosen[min(body, len(chosen) - 1)]  # there is only one where nothing is chosen for any body
+        drawn = as_chosen_in(row, draw(episode, load_currents(currents), uniforms))
         return begin(parameters, episode, drawn)
 
     return begin_one

@@ -72,7 +72,8 @@ class PeriodArrays(NamedTuple):
         pool: vehicles to draw from, a row each, see `backend.simd.vehicles`.
         vehicles: numbers of those drawn.
         currents: `CurrentDraw`, packed.
-        chosen: what is not drawn at a `begin`: position, quaternion, velocity (Fossen's order), current; NaN if drawn.
+        chosen: what is not drawn at a `begin`: position, quaternion, velocity (Fossen's order), current; NaN if drawn;
+            one row for all where nothing is chosen.
         periods: control periods since the episode began.
         clocks: time at the episode's beginning [s].
         ended: whether the last period ended the episode.
