@@ -27,10 +27,14 @@ def test_no_page():
 """
 
 
+SETTINGS = ("CI", "DQ_MARINE_INSTALL_CHROMIUM")
+"""Variables that these tests set themselves, whatever the run of pytest was given."""
+
+
 def environment(executable: Path, **more: str) -> dict[str, str]:
     """One whose browser is the given program, whatever the machine has."""
     return {
-        **{name: value for name, value in os.environ.items() if name != "CI"},
+        **{name: value for name, value in os.environ.items() if name not in SETTINGS},
         CHROMIUM_VARIABLES[0]: str(executable),
         "PYTHONPATH": os.pathsep.join([str(TESTS), str(TESTS.parent)]),
         **more,
