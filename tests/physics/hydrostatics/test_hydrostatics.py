@@ -105,12 +105,16 @@ def test_the_step_is_of_second_order():
 
 
 def test_energy_stays_in_bounds_for_100000_steps():
-    """Bounded, without drift: the second half of the run has the mean of the first; a quarter of the step, 1/16."""
+    """Bounded, without drift: the second half of the run has the mean of the first; a quarter of the step, 1/16.
+
+    The motion is chaotic. Steps are compared over 20 s, in which they follow the same orbit; beyond, the largest error
+    is that of wherever each has come, and follows from the last bit of M.
+    """
     rng = np.random.default_rng(5)
     m = random_inertia(rng)
     position, quaternion, velocity = (0.0, 0.0, 0.5), (0.9, 0.3, -0.2, 0.2), 0.3 * rng.normal(size=6)
     quaternion = np.array(quaternion) / np.linalg.norm(quaternion)
-    worst = []
+    early = []
     for step, repeats in ((0.02, 4000), (0.005, 2000)):
         body = make_body(m, step, forces=(waterplane(),))
         body.reset(position, quaternion, velocity)
@@ -120,10 +124,11 @@ def test_energy_stays_in_bounds_for_100000_steps():
             body.step(steps=25)
             series.append(energy(m, *state_of(body)) / initial - 1.0)
         first, second = np.array_split(np.array(series), 2)
-        assert abs(first.mean() - second.mean()) < 0.1 * np.abs(series).max()
-        worst.append(np.abs(series).max())
-    assert worst[0] < 3e-3
-    assert worst[0] / worst[1] == pytest.approx(16.0, rel=0.3)
+        worst = np.abs(series).max()
+        assert worst < 3e-3
+        assert abs(first.mean() - second.mean()) < 0.1 * worst
+        early.append(np.abs(series[: round(20.0 / (25 * step))]).max())
+    assert early[0] / early[1] == pytest.approx(16.0, rel=0.05)
 
 
 def uncoupled(**tables):
