@@ -33,7 +33,7 @@ browser_found && exit 0
 if may_install; then
     say "installing Chromium with apt-get, for the tests that look at pages"
     log=$(mktemp)
-    apt update >"$log" 2>&1 && apt install -y --no-install-recommends chromium >>"$log" 2>&1 ||
+    apt update >"$log" 2>&1 && apt install -y --reinstall --no-install-recommends chromium >>"$log" 2>&1 ||
         say "Chromium could not be installed: $(tail -n 1 "$log")"
     rm -f "$log"
     browser_found && exit 0
