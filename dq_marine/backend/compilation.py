@@ -17,7 +17,7 @@ from numba.extending import overload, register_jitable
 
 from dq_marine.backend.disk_cache import keep_on_disk
 from dq_marine.backend.garbage import collect_garbage_rarely_while_compiling
-from dq_marine.backend.selection import PROVIDED
+from dq_marine.backend.selection import INLINED, PROVIDED
 
 CONSTANT_TYPES = (bool, int, float, complex, str, tuple, np.ndarray)
 """What compiled code takes as it stood when it was compiled."""
@@ -79,7 +79,7 @@ def all_used_functions(function: Callable[..., Any]) -> list[FunctionType]:
 def make_compilable(function: FunctionType) -> None:
     """Let compiled code call a plain function, which stays plain Python."""
     if function not in _COMPILED_APART and function not in PROVIDED:
-        register_jitable(error_model="numpy", forceinline=True)(function)
+        register_jitable(**INLINED)(function)
 
 
 @functools.cache
@@ -130,7 +130,7 @@ def compile_function(
     used = all_used_functions(function)
     for part in used:
         make_compilable(part)
-    compiled = numba.njit(error_model="numpy", nogil=True)(function)
+    compiled = numba.njit(error_model="numpy", nogil=True, no_cfunc_wrapper=True)(function)
     parts: list[Callable[..., Any]] = [function, *used]
     key = "|".join([name_of(function), layout, *map(constants_of, parts), *map(code_of, parts)])
     keep_on_disk(compiled, function, key, source_fingerprint(parts))

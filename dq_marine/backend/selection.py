@@ -15,6 +15,10 @@ from numba.extending import intrinsic, overload
 from dq_marine.algebra import selection
 from dq_marine.backend.lane_type import Lanes, all_bits, any_bit, as_lanes, extract
 
+INLINED = {"error_model": "numpy", "forceinline": True, "no_cfunc_wrapper": True}
+"""Numba's options for functions that go into others. Nothing calls them from C: a wrapper for that, which Numba makes
+unless told otherwise, would cost a tenth of the time that compilation takes."""
+
 PROVIDED: set[Callable[..., Any]] = set()
 """Pure functions that compiled code has from here, not from their Python text."""
 
@@ -22,7 +26,7 @@ PROVIDED: set[Callable[..., Any]] = set()
 def provide(function: Callable[..., Any]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Give a pure function its compiled form, chosen by the types of its arguments."""
     PROVIDED.add(function)
-    return overload(function, strict=False, jit_options={"error_model": "numpy", "forceinline": True})
+    return overload(function, strict=False, jit_options=INLINED)
 
 
 def find_lanes(*kinds: types.Type) -> Lanes | None:

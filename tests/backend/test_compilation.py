@@ -68,7 +68,7 @@ def test_what_a_scene_lacks_is_not_used():
     bare = {
         function.__name__ for function in all_used_functions(make_advance(make_body(M, 0.02)._composition))
     }
-    assert {"drift", "robust_drift", "drift_equation"} <= bare
+    assert {"drift", "split_drift", "drift_equation"} <= bare
     absent = {"net_weight", "righting_moment", "quadratic_kick", "linear_kick", "carry_with_current"}
     assert not bare & absent
     full = {
