@@ -106,6 +106,13 @@ def spatial_dot(a: Spatial, b: Spatial) -> float:
     return dot(a.angular, b.angular) + dot(a.linear, b.linear)
 
 
+def quadratic_form(m: Matrix6, a: Spatial) -> float:
+    """Return a . m a of a symmetric m."""
+    coupled = dot(a.angular, transform(m.angular_linear, a.linear))
+    own = dot(a.angular, transform(m.angular, a.angular)) + dot(a.linear, transform(m.linear, a.linear))
+    return own + (coupled + coupled)
+
+
 def matrix6_transform(m: Matrix6, a: Spatial) -> Spatial:
     """Return m a."""
     return Spatial(

@@ -2,8 +2,8 @@
 
 A scheme eliminates the translation and leaves one equation in three unknowns x, the rotation variable of the step,
 for the scaled momenta a = (h/2) mu_angular and b = (h/2) mu_linear. `DriftScheme` names its functions. `make_drift`
-makes the fast drift, Newton's method from a good guess; `make_robust_drift` the one for steps that the fast one does
-not solve: continuation from rest, else the step split in up to `MAX_PIECES`. Newton's method with damped steps has no
+makes the fast drift, Newton's method from a good guess; `make_split_drift` the one for steps that the fast one does
+not solve, or only with a wrong energy: the step split in up to `MAX_PIECES`. Newton's method with damped steps has no
 place here: it finds solutions, but not necessarily on the branch that starts at rest.
 """
 
@@ -24,16 +24,16 @@ from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.matrix3 import Matrix3, has_negative_real_eigenvalue, invert, transform
 from dq_marine.algebra.quaternion import Quaternion, rotate, rotate_inverse
 from dq_marine.algebra.selection import by_precision, negation, select, some, spread
-from dq_marine.algebra.spatial import Spatial, spatial_scale
-from dq_marine.algebra.vector3 import Vector3, add, clamp, cross, dot, scale, subtract
+from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_scale
+from dq_marine.algebra.vector3 import Vector3, add, clamp, cross, dot, subtract
+from dq_marine.integrator.body import kinetic_energy
 from dq_marine.integrator.drift_report import (
-    CONTINUED,
-    DIRECT,
-    SPLIT,
     DriftReport,
+    SolverReport,
     accepted_squared,
     converged_squared,
     drift_accepted,
+    is_energy_kept,
 )
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 
@@ -43,15 +43,13 @@ SHRINKING = 0.01  # of the squared correction from one iteration to the next: a 
 NEGLIGIBLE_CORRECTION = 1e-20  # of the squared correction, in quarter angles
 NEGLIGIBLE_CORRECTION_SINGLE = 1e-10  # the same in single precision
 LARGEST_CHANGE = 0.1  # of half a step's angle, in its first half [rad]
-MAX_CONTINUATION_SOLVES = 64
-SMALLEST_CONTINUATION_STEP = 1.0 / 256.0
-MAX_PIECES = 64
+MAX_PIECES = 256
 
 Drift: TypeAlias = Callable[
     [Inertia, float, DualQuaternion, Spatial], tuple[DualQuaternion, Spatial, DriftReport]
 ]
-Newton: TypeAlias = Callable[[Inertia, Vector3, Vector3, Vector3], tuple[Any, DriftReport]]
-Solve: TypeAlias = Callable[[Inertia, Vector3, Vector3], tuple[Any, DriftReport]]
+Newton: TypeAlias = Callable[[Inertia, Vector3, Vector3, Vector3], tuple[Any, SolverReport]]
+Solve: TypeAlias = Callable[[Inertia, Vector3, Vector3], tuple[Any, SolverReport]]
 
 
 class DriftScheme(NamedTuple):
@@ -82,7 +80,7 @@ def make_newton(scheme: DriftScheme, chords: int = 1) -> Newton:
     """
     equation_at, jacobian_at = scheme.equation, scheme.jacobian
 
-    def newton(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
+    def newton(inertia: Inertia, guess: Vector3, a: Vector3, b: Vector3) -> tuple[Any, SolverReport]:
         equation = equation_at(inertia, guess, a, b)
         jacobian = jacobian_at(inertia, equation)
         inverse = invert(jacobian)
@@ -111,7 +109,7 @@ def make_newton(scheme: DriftScheme, chords: int = 1) -> Newton:
                 inverse = invert(jacobian)
                 regular = select(active, negation(has_negative_real_eigenvalue(jacobian)), regular)
         on_rest_branch = regular & shrinking
-        return equation, DriftReport(equation.relative_residual_squared, on_rest_branch, iterations, DIRECT)
+        return equation, SolverReport(equation.relative_residual_squared, on_rest_branch, iterations)
 
     return newton
 
@@ -124,48 +122,13 @@ def make_direct(scheme: DriftScheme) -> Solve:
     """
     newton, guess_of = make_newton(scheme, CHORDS), scheme.guess
 
-    def direct(inertia: Inertia, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
+    def direct(inertia: Inertia, a: Vector3, b: Vector3) -> tuple[Any, SolverReport]:
         start = Spatial(a, b)
         angle = twist_from_momentum(inertia, start)
         change = twist_from_momentum(inertia, momentum_bracket(angle, start)).angular
         return newton(inertia, guess_of(add(angle.angular, clamp(LARGEST_CHANGE, change))), a, b)
 
     return direct
-
-
-def make_continuation(scheme: DriftScheme) -> Solve:
-    """Return (inertia, a, b) -> (equation, report): follows the branch from rest.
-
-    Solves for s a, s b with s from 0 to 1, each from the last solution stretched; a solve that fails or leaves the
-    branch halves the step in s.
-    """
-    newton, guess_of = make_newton(scheme), scheme.guess
-
-    def continuation(inertia: Inertia, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
-        reached = 0.0
-        stride = 0.25
-        start = scale(stride, guess_of(twist_from_momentum(inertia, Spatial(a, b)).angular))
-        iterations = 0
-        equation, report = newton(inertia, start, scale(stride, a), scale(stride, b))
-        for _ in range(MAX_CONTINUATION_SOLVES):
-            iterations += report.iterations
-            if drift_accepted(report):
-                reached += stride
-                if reached >= 1.0:
-                    break
-                stretch = min(reached + stride, 1.0) / reached
-                start = scale(stretch, equation[0])
-            else:
-                stride *= 0.5
-                if stride < SMALLEST_CONTINUATION_STEP:
-                    break
-                start = scale((reached + stride) / (reached + 2.0 * stride), start)
-            target = min(reached + stride, 1.0)
-            equation, report = newton(inertia, start, scale(target, a), scale(target, b))
-        accepted = reached >= 1.0 and report.on_rest_branch
-        return equation, DriftReport(equation.relative_residual_squared, accepted, iterations, CONTINUED)
-
-    return continuation
 
 
 def transport_momentum(
@@ -196,30 +159,37 @@ def make_drift_by(scheme: DriftScheme, solve: Solve) -> Drift:
         increment = increment_of(equation)
         moved = pose_renormalise(dual_multiply(pose, increment))
         carried = transport_momentum(pose.real, moved.real, pose_position(increment), momentum)
-        return moved, carried, report
+        # Written so that the solver's first guess shares the work before, and a kick that follows the work after.
+        before = quadratic_form(inertia.inverse, scaled)
+        after = quadratic_form(inertia.inverse, carried)
+        return moved, carried, DriftReport(report, is_energy_kept(before, 0.25 * h * h * after))
 
     return drift
 
 
 def make_split_drift(drift: Drift) -> Drift:
-    """Return a drift that divides h into 2, 4, ... equal pieces until each is solved."""
+    """Return a drift that divides h into 2, 4, ... pieces until each is solved and together they keep the energy."""
 
     def split_drift(
         inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
     ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        before = kinetic_energy(inertia, momentum)
         pieces = 2
         while True:
             moved, transported, report = drift(inertia, h / pieces, pose, momentum)
-            worst = report.relative_residual_squared
-            iterations = report.iterations
+            worst = report.solver.relative_residual_squared
+            iterations = report.solver.iterations
             done = 1
             while done < pieces and drift_accepted(report):
                 moved, transported, report = drift(inertia, h / pieces, moved, transported)
-                worst = max(worst, report.relative_residual_squared)
-                iterations += report.iterations
+                worst = max(worst, report.solver.relative_residual_squared)
+                iterations += report.solver.iterations
                 done += 1
-            if drift_accepted(report) or pieces >= MAX_PIECES:
-                return moved, transported, DriftReport(worst, report.on_rest_branch, iterations, SPLIT)
+            solver = SolverReport(worst, report.solver.on_rest_branch, iterations)
+            after = kinetic_energy(inertia, transported)
+            together = DriftReport(solver, report.energy_kept & is_energy_kept(before, after))
+            if drift_accepted(together) or pieces >= MAX_PIECES:
+                return moved, transported, together
             pieces *= 2
 
     return split_drift
@@ -229,19 +199,3 @@ def make_split_drift(drift: Drift) -> Drift:
 def make_drift(scheme: DriftScheme) -> Drift:
     """Return the fast drift: Newton from a good guess. It is one function, which is compiled once."""
     return make_drift_by(scheme, make_direct(scheme))
-
-
-def make_robust_drift(scheme: DriftScheme) -> Drift:
-    """Return the drift for steps that the fast one does not solve: continued from rest, else split."""
-    continued = make_drift_by(scheme, make_continuation(scheme))
-    split = make_split_drift(make_drift(scheme))
-
-    def robust_drift(
-        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
-    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        outcome = continued(inertia, h, pose, momentum)
-        if not drift_accepted(outcome[2]):
-            outcome = split(inertia, h, pose, momentum)
-        return outcome
-
-    return robust_drift

@@ -1,4 +1,4 @@
-"""How a drift's solver fared, and when its outcome may be used."""
+"""How a drift and its solver fared, and when the outcome may be used."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ what is left of it is round-off, which no solver brings below `ACCEPTED_RESIDUAL
 CANCELLED_PART_SINGLE = 1e-2
 """`CANCELLED_PART` where numbers have single precision."""
 
-DIRECT, CONTINUED, SPLIT = range(3)
-"""How a step was solved: by plain Newton, or by what had to come to its fallback."""
+LARGEST_ENERGY_CHANGE = 0.005
+"""Of the kinetic energy before a drift that may be gained or lost in it, see docs/theory.md, "When a step is hard"."""
 
 
-class DriftReport(NamedTuple):
+class SolverReport(NamedTuple):
     """Outcome of solving a drift's discrete equation.
 
     Attributes:
@@ -39,13 +39,24 @@ class DriftReport(NamedTuple):
             positive definite and no real eigenvalue has crossed zero; the sign of the determinant alone would miss
             two that cross together, as they do for an axisymmetric body.
         iterations: Newton iterations taken.
-        method: DIRECT, CONTINUED or SPLIT.
     """
 
     relative_residual_squared: float
     on_rest_branch: bool
     iterations: int
-    method: int
+
+
+class DriftReport(NamedTuple):
+    """Outcome of a drift.
+
+    Attributes:
+        solver: the outcome of solving the discrete equation, the worst where there were several.
+        energy_kept: whether the kinetic energy, which free motion keeps, changed by no more than
+            `LARGEST_ENERGY_CHANGE`; False for NaN.
+    """
+
+    solver: SolverReport
+    energy_kept: bool
 
 
 def equation_size_squared(
@@ -72,7 +83,17 @@ def accepted_squared(like: float) -> float:
     return by_precision(like, ACCEPTED_RESIDUAL**2, ACCEPTED_RESIDUAL_SINGLE**2)
 
 
-def drift_accepted(report: DriftReport) -> bool:
+def equation_met(report: SolverReport) -> bool:
     """Whether the equation is met, on the branch connected to rest; False for NaN."""
     residual = report.relative_residual_squared
     return (residual <= accepted_squared(residual)) & report.on_rest_branch
+
+
+def is_energy_kept(before: float, after: float) -> bool:
+    """Whether an energy differs from that before by no more than `LARGEST_ENERGY_CHANGE` of it; False for NaN."""
+    return abs(after - before) <= LARGEST_ENERGY_CHANGE * before
+
+
+def drift_accepted(report: DriftReport) -> bool:
+    """Whether a drift's outcome may be used: its equation is met, and it kept the energy."""
+    return equation_met(report.solver) & report.energy_kept

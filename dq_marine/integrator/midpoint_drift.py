@@ -25,7 +25,7 @@ from typing import NamedTuple
 from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.matrix3 import Matrix3, matrix_from_columns, transform
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
-from dq_marine.integrator.drift import DriftScheme, make_drift, make_robust_drift
+from dq_marine.integrator.drift import DriftScheme, make_drift, make_split_drift
 from dq_marine.integrator.drift_report import equation_size_squared
 from dq_marine.integrator.inertia import Inertia
 
@@ -125,4 +125,4 @@ def midpoint_guess(angle: Vector3) -> Vector3:
 
 MIDPOINT = DriftScheme(drift_equation, drift_jacobian, midpoint_guess, pose_increment)
 midpoint_drift = make_drift(MIDPOINT)
-midpoint_fallback = make_robust_drift(MIDPOINT)
+midpoint_fallback = make_split_drift(midpoint_drift)

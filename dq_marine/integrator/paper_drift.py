@@ -25,7 +25,7 @@ from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.matrix3 import Matrix3, matrix_from_columns, transform
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
-from dq_marine.integrator.drift import DriftScheme, make_drift, make_robust_drift
+from dq_marine.integrator.drift import DriftScheme, make_drift, make_split_drift
 from dq_marine.integrator.drift_report import equation_size_squared
 from dq_marine.integrator.inertia import Inertia
 
@@ -112,4 +112,4 @@ def paper_increment(at: PaperEquation) -> DualQuaternion:
 
 PAPER = DriftScheme(paper_equation, paper_jacobian, paper_guess, paper_increment)
 paper_drift = make_drift(PAPER)
-paper_fallback = make_robust_drift(PAPER)
+paper_fallback = make_split_drift(paper_drift)

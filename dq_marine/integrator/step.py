@@ -20,7 +20,7 @@ from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.actuation import NO_ACTUATION, Actuation
 from dq_marine.integrator.body import BodyState, Motion
 from dq_marine.integrator.drift import Drift
-from dq_marine.integrator.drift_report import DriftReport, drift_accepted
+from dq_marine.integrator.drift_report import DriftReport, drift_accepted, equation_met
 from dq_marine.integrator.forces import PoseForce, VelocityForce
 from dq_marine.integrator.inertia import Inertia, momentum_from_twist, twist_from_momentum
 from dq_marine.integrator.kick import Kick
@@ -30,11 +30,13 @@ ACCEPTED = 0
 NOT_CONVERGED = 1
 WRONG_BRANCH = 2
 NOT_FINITE = 3
+ENERGY_NOT_KEPT = 4
 
 REFUSALS = {
     NOT_CONVERGED: "not_converged",
     WRONG_BRANCH: "wrong_branch",
     NOT_FINITE: "not_finite",
+    ENERGY_NOT_KEPT: "energy_not_kept",
 }
 """Why a step was refused, by status code."""
 
@@ -187,16 +189,17 @@ def set_out(state: BodyState) -> Progress:
 
 def progress_with(progress: Progress, flown: Flown) -> Progress:
     """Return the progress after one more drift."""
-    report = flown.report
+    report, solver = flown.report, flown.report.solver
     solved = drift_accepted(report)
     refused = progress.under_way & negation(solved)
-    reason = select(report.on_rest_branch, NOT_CONVERGED, WRONG_BRANCH)
-    worst = max(progress.residual_squared, report.relative_residual_squared)
+    reason = select(solver.on_rest_branch, NOT_CONVERGED, WRONG_BRANCH)
+    reason = select(equation_met(solver), ENERGY_NOT_KEPT, reason)
+    worst = max(progress.residual_squared, solver.relative_residual_squared)
     return Progress(
         progress.under_way & solved,
         select(refused, reason, progress.status),
         progress.completed,
-        progress.iterations + report.iterations,
+        progress.iterations + solver.iterations,
         progress.fallbacks + select(flown.fell_back, 1, 0),
         select(progress.under_way, worst, progress.residual_squared),
     )
