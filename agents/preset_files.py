@@ -11,6 +11,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from dq_marine.agents.settings import EnvironmentSettings, Settings
+from dq_marine.checks import existing_file, shown
 from dq_marine.errors import InvalidInputError
 
 PRESET_FOLDER = Path(__file__).parent / "presets"
@@ -76,10 +77,10 @@ def _preset_path(preset: str | os.PathLike[str]) -> Path:
     text = os.fspath(preset)
     if text in preset_names():
         return PRESET_FOLDER / f"{text}.toml"
-    path = Path(text).expanduser()
-    if not path.is_file():
+    path = existing_file("preset", text)
+    if path is None:
         raise InvalidInputError(
-            f"there is no preset or file {text!r}; the presets are {', '.join(preset_names())}, and the path of "
+            f"there is no preset or file {shown(text)}; the presets are {', '.join(preset_names())}, and the path of "
             "an existing .toml file is taken too"
         )
     return path

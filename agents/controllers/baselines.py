@@ -8,7 +8,8 @@ import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.controllers.dp_controller import DPController
-from dq_marine.envs.core.marine_env import Action, Observation
+from dq_marine.envs.core.marine_env import Action
+from dq_marine.envs.core.observation import Observation
 from dq_marine.errors import InvalidInputError
 
 BASELINES = ("controller", "zero", "random")

@@ -28,7 +28,8 @@ from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import ControllerSettings, LoopSettings
 from dq_marine.algebra.quaternion import world_down_in_body
-from dq_marine.envs.core.marine_env import Action, MarineEnv, Observation
+from dq_marine.envs.core.marine_env import Action, MarineEnv
+from dq_marine.envs.core.observation import Observation
 from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import Vehicle
 

@@ -12,7 +12,8 @@ from rich.progress import TaskID
 
 from dq_marine.agents.training.episode_log import episode_tags, mean_tags, metrics_in
 from dq_marine.agents.training.learners import Model, save_model
-from dq_marine.agents.training.run_folder import Kind, Progress, RunFolder
+from dq_marine.agents.training.run_folder import Kind, RunFolder
+from dq_marine.agents.training.snapshots import Progress
 from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):

@@ -1,50 +1,40 @@
 """The folder of a training run: what was asked, checkpoints, the best model, logs.
 
     run.json               settings, seed and versions
-    checkpoints/000007/    the latest: model.zip, normalisation.pkl, progress.json (SAC: replay_buffer.pkl too)
-    best/000003/           the best evaluated: the same, without the replay buffer
+    checkpoints/000007/    the latest, and the one before: model.zip, normalisation.pkl, progress.json (SAC:
+                           replay_buffer.pkl too)
+    best/000003/           the best evaluated, and the one before: the same, without the replay buffer
     tensorboard/           logs
     summary.json           how it ended
+    run.lock               process number of the training in progress, which keeps others out
 
 A snapshot folder is complete or absent, and the latest has the highest number, so a run can be resumed whenever
-it was killed.
+it was killed. Where the latest was damaged since, the one before takes its place.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 from dq_marine.agents.preset_files import validate_settings
 from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.training.snapshots import Progress, is_whole, read_progress, write_progress
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.files import new_folder, write_json
+from dq_marine.util.locks import FileLock, HeldLockError
 
 MODEL_FILE = "model.zip"
 NORMALISATION_FILE = "normalisation.pkl"
 REPLAY_BUFFER_FILE = "replay_buffer.pkl"
-PROGRESS_FILE = "progress.json"
+LOCK_FILE = "run.lock"
 
 Kind = Literal["checkpoints", "best"]
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a run was at a snapshot.
-
-    Attributes:
-        timesteps: learned from.
-        wall_time: spent [s], over all sessions.
-        mean_return: of the evaluation that made this the best so far; None if there was none.
-    """
-
-    timesteps: int
-    wall_time: float
-    mean_return: float | None = None
 
 
 @dataclass(frozen=True)
@@ -83,8 +73,9 @@ class RunFolder:
                     f"{self.path} holds a run already; continue it with --resume, replace it with --force, or "
                     "choose another folder"
                 )
-            self._remove_run()
-        elif self.path.exists() and (not self.path.is_dir() or any(self.path.iterdir())):
+            with self.locked():
+                self._remove_run()
+        elif self.path.exists() and (not self.path.is_dir() or self._holds_anything()):
             raise InvalidInputError(
                 f"{self.path} exists and is not a run; choose a new or empty folder (nothing was removed)"
             )
@@ -95,6 +86,26 @@ class RunFolder:
                 f"{self.path} cannot be made: {error.strerror}; choose a folder that can be written"
             ) from error
         self.write_plan(plan)
+
+    @contextlib.contextmanager
+    def locked(self) -> Iterator[None]:
+        """Keep other processes from training here.
+
+        Raises:
+            InvalidInputError: one trains here already, or the folder cannot be written.
+        """
+        try:
+            lock = FileLock(self.path / LOCK_FILE)
+        except HeldLockError as error:
+            raise InvalidInputError(
+                f"{self.path} is being trained by process {error.owner}; wait until it has ended, or end it"
+            ) from error
+        except OSError as error:
+            raise InvalidInputError(f"{self.path} cannot be written: {error.strerror}") from error
+        try:
+            yield
+        finally:
+            lock.release()
 
     def write_plan(self, plan: RunPlan) -> None:
         """Write `run.json`."""
@@ -135,21 +146,31 @@ class RunFolder:
         number = 1 + max((int(folder.name) for folder in before), default=0)
         with new_folder(self.path / kind / f"{number:06d}") as folder:
             write(folder)
-            write_json(folder / PROGRESS_FILE, vars(progress))
-        for older in before:
+            write_progress(folder, progress)
+        for older in sorted(before)[:-1]:
             shutil.rmtree(older)
 
     def latest(self, kind: Kind) -> Path | None:
-        """Return the folder of the latest snapshot, None if there is none."""
-        return max(self._snapshots(kind), default=None)
+        """Return the folder of the latest snapshot that is not damaged, None if there never was one.
+
+        Raises:
+            InvalidInputError: there are snapshots, and all are damaged.
+        """
+        found = sorted(self._snapshots(kind), reverse=True)
+        whole = next(filter(is_whole, found), None)
+        if found and whole is None:
+            raise InvalidInputError(
+                f"{found[0]} is damaged: a file is missing or is not as it was written; restore it from a copy, or "
+                "train anew with --force"
+            )
+        return whole
 
     def progress(self, kind: Kind) -> Progress:
         """Return how far the run was at the latest snapshot; nowhere if there is none."""
         folder = self.latest(kind)
         if folder is None:
             return Progress(0, 0.0)
-        content: dict[str, Any] = json.loads((folder / PROGRESS_FILE).read_text(encoding="utf-8"))
-        return Progress(**content)
+        return read_progress(folder)
 
     def write_summary(self, content: dict[str, Any]) -> None:
         """Write `summary.json`."""
@@ -157,6 +178,9 @@ class RunFolder:
 
     def _snapshots(self, kind: Kind) -> list[Path]:
         return list((self.path / kind).glob("[0-9]*"))
+
+    def _holds_anything(self) -> bool:
+        return any(one.name != LOCK_FILE for one in self.path.iterdir())
 
     def _remove_run(self) -> None:
         """Remove what a run writes, and nothing else; the plan last, so that an interrupted removal can be resumed."""

@@ -10,7 +10,8 @@ import numpy as np
 
 from dq_marine.agents.training.learners import MODEL_CLASSES
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, RunFolder
-from dq_marine.envs.core.marine_env import Action, Observation
+from dq_marine.envs.core.marine_env import Action
+from dq_marine.envs.core.observation import Observation
 from dq_marine.errors import InvalidInputError
 
 

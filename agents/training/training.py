@@ -27,6 +27,7 @@ from dq_marine.agents.training.learners import (
     make_model,
 )
 from dq_marine.agents.training.run_folder import RunFolder, RunPlan
+from dq_marine.agents.training.snapshots import read_progress
 from dq_marine.agents.training.trained_policy import TrainedPolicy
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
@@ -91,7 +92,8 @@ def begin_training(
     make_environment(settings.environment).close()  # so that a mistake leaves an earlier run untouched
     plan = RunPlan(settings, seed, _versions())
     folder.begin(plan, force=force)
-    return _train(folder, plan, console, watch)
+    with folder.locked():
+        return _train(folder, plan, console, watch)
 
 
 def resume_training(
@@ -116,8 +118,9 @@ def resume_training(
         raise InvalidInputError(
             f"{folder.path} has learned from {done} timesteps, of {total} asked for; ask for more with --timesteps"
         )
-    folder.write_plan(plan)
-    return _train(folder, plan, console, watch)
+    with folder.locked():
+        folder.write_plan(plan)
+        return _train(folder, plan, console, watch)
 
 
 def summary_table(summary: Summary) -> Table:
@@ -182,7 +185,7 @@ def _model(folder: RunFolder, plan: RunPlan) -> Model:
     checkpoint = folder.latest("checkpoints")
     if checkpoint is None:
         return make_model(plan.settings, plan.seed, folder.tensorboard)
-    done = folder.progress("checkpoints").timesteps
+    done = read_progress(checkpoint).timesteps
     return load_model(plan.settings, checkpoint, plan.seed + done, folder.tensorboard)
 
 

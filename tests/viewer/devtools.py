@@ -18,12 +18,22 @@ DEBUGGING_FLAGS = ("--remote-debugging-port=0", "--remote-allow-origins=*")
 PATIENCE = 120.0
 
 
+class NavigatedError(Exception):
+    """The browser could not evaluate an expression: its page was just replaced by another."""
+
+
 class Page:
     """The page that a browser shows."""
 
     def __init__(self, connection: ClientConnection) -> None:
         self._connection = connection
         self._sent = 0
+
+    def _holds(self, condition: str) -> bool:
+        try:
+            return bool(self.evaluate(f"Boolean({condition})"))
+        except NavigatedError:  # the browser goes from its first page to the one that is waited for
+            return False
 
     def evaluate(self, expression: str) -> Any:
         """The value of a JavaScript expression; a JavaScript error fails the test."""
@@ -35,13 +45,15 @@ class Page:
             answer = json.loads(self._connection.recv(timeout=PATIENCE))
             if answer.get("id") == self._sent:
                 break
+        if "error" in answer:
+            raise NavigatedError(answer["error"])
         assert "exceptionDetails" not in answer["result"], answer["result"]["exceptionDetails"]
         return answer["result"]["result"].get("value")
 
     def wait_until(self, condition: str) -> None:
         """Return when a JavaScript condition has become true."""
         deadline = time.monotonic() + PATIENCE
-        while not self.evaluate(f"Boolean({condition})"):
+        while not self._holds(condition):
             assert time.monotonic() < deadline, f"still not true: {condition}"
             time.sleep(0.05)
 

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from dq_marine.errors import MissingDependencyError
+from dq_marine.util.locks import FileLock, is_free
 
 CHROMIUM_VARIABLES = ("DQ_MARINE_CHROMIUM", "CHROME")
 """What may name the browser's executable, the first one that is set and not empty."""
@@ -59,6 +60,12 @@ QUIET_FLAGS = (
     "--disable-sync",
     "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
 )
+
+PROFILE_PREFIX = "dq_marine_chromium_"
+"""Of the names of temporary profiles."""
+
+OWNER_FILE = "owner.lock"
+"""In a profile: locked by the process that uses it."""
 
 
 def find_chromium() -> str:
@@ -115,7 +122,9 @@ class HeadlessBrowser:
             MissingDependencyError: there is no Chromium.
         """
         executable = find_chromium()
-        self.profile = Path(tempfile.mkdtemp(prefix="dq_marine_chromium_"))
+        remove_abandoned_profiles()
+        self.profile = Path(tempfile.mkdtemp(prefix=PROFILE_PREFIX))
+        lock = FileLock(self.profile / OWNER_FILE)
         # The address is a secret, and arguments can be read by every user of the computer; this folder cannot.
         start = self.profile / "start.html"
         start.write_text(f"<script>location.replace({json.dumps(url)})</script>", encoding="utf-8")
@@ -136,7 +145,7 @@ class HeadlessBrowser:
             stderr=subprocess.DEVNULL,
             start_new_session=True,
         )
-        self._stop = weakref.finalize(self, _stop, self._process, self.profile, os.getpid())
+        self._stop = weakref.finalize(self, _stop, self._process, self.profile, lock, os.getpid())
 
     @property
     def pid(self) -> int:
@@ -153,7 +162,17 @@ class HeadlessBrowser:
         self._stop()
 
 
-def _stop(process: subprocess.Popen[bytes], profile: Path, owner: int) -> None:
+def remove_abandoned_profiles() -> None:
+    """Remove what browsers left behind whose owner was killed before it could end them.
+
+    An owner holds a lock in its profile as long as it lives. A profile without one has only just been made.
+    """
+    for profile in Path(tempfile.gettempdir()).glob(f"{PROFILE_PREFIX}*"):
+        if (profile / OWNER_FILE).is_file() and is_free(profile / OWNER_FILE):
+            shutil.rmtree(profile, ignore_errors=True)
+
+
+def _stop(process: subprocess.Popen[bytes], profile: Path, lock: FileLock, owner: int) -> None:
     """Kill Chromium's process group, wait for it, and remove the profile."""
     # A forked child inherits the viewer object, but the browser stays its parent's.
     if os.getpid() != owner:
@@ -162,3 +181,4 @@ def _stop(process: subprocess.Popen[bytes], profile: Path, owner: int) -> None:
         os.killpg(process.pid, signal.SIGKILL)
     process.wait()
     shutil.rmtree(profile, ignore_errors=True)
+    lock.release()

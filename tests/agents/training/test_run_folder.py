@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import TrainingSettings
-from dq_marine.agents.training.run_folder import Progress, RunFolder, RunPlan
+from dq_marine.agents.training.run_folder import RunFolder, RunPlan
+from dq_marine.agents.training.snapshots import Progress
 from dq_marine.errors import InvalidInputError
 
 
@@ -63,7 +66,46 @@ def test_the_latest_snapshot_stays(tmp_path: Path) -> None:
     latest = folder.latest("best")
     assert latest is not None
     assert (latest / "model.zip").read_text() == "200"
-    assert len(list((tmp_path / "best").iterdir())) == 1
+    assert sorted(path.name for path in (tmp_path / "best").iterdir()) == ["000002", "000003"]
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda snapshot: (snapshot / "model.zip").write_text("other"),
+        lambda snapshot: (snapshot / "model.zip").write_text(""),
+        lambda snapshot: (snapshot / "model.zip").unlink(),
+        lambda snapshot: (snapshot / "progress.json").write_text("{"),
+        lambda snapshot: (snapshot / "progress.json").unlink(),
+        lambda snapshot: (snapshot / "progress.json").write_text("[]"),
+    ],
+    ids=["changed", "emptied", "removed", "half of progress", "no progress", "other progress"],
+)
+def test_a_damaged_snapshot_gives_way_to_the_one_before(
+    tmp_path: Path, damage: Callable[[Path], object]
+) -> None:
+    folder = RunFolder(tmp_path)
+    for timesteps in (100, 200):
+        folder.save("checkpoints", Progress(timesteps, 1.0), write_model(str(timesteps)))
+    damage(tmp_path / "checkpoints" / "000002")
+    assert folder.progress("checkpoints").timesteps == 100
+    folder.save("checkpoints", Progress(150, 1.0), write_model("150"))
+    assert folder.progress("checkpoints").timesteps == 150
+    damage(tmp_path / "checkpoints" / "000003")
+    with pytest.raises(InvalidInputError, match=r"000003 is damaged.*--force"):
+        folder.latest("checkpoints")
+
+
+def test_two_trainings_keep_out_of_each_others_way(tmp_path: Path, plan: RunPlan) -> None:
+    folder = RunFolder(tmp_path / "run")
+    folder.begin(plan, force=False)
+    with folder.locked():
+        with pytest.raises(InvalidInputError, match=f"by process {os.getpid()}"), folder.locked():
+            pass
+        with pytest.raises(InvalidInputError, match="is being trained"):
+            RunFolder(tmp_path / "run").begin(plan, force=True)
+        assert folder.holds_run
+    RunFolder(tmp_path / "run").begin(plan, force=True)
 
 
 def test_a_snapshot_that_failed_leaves_the_one_before(tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Any
 
 import gymnasium as gym
@@ -11,24 +10,16 @@ import pytest
 from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode
 from stable_baselines3.common.monitor import Monitor
-from stable_baselines3.common.vec_env import DummyVecEnv, VecEnv
+from stable_baselines3.common.vec_env import VecEnv
 from support.environments import StationKeepingEnv
 from support.equivalence import same
+from support.sb3_envs import actions_for, assert_same_step, dummy, marine
+from support.vector_envs import BUSY
 
 from dq_marine.agents.training.vec_env import MarineVecEnv
 from dq_marine.errors import InvalidInputError
 
 ID = "dq_marine/StationKeeping-v0"
-BUSY: dict[str, Any] = {"max_episode_steps": 7, "workspace_radius": 2.05, "current": 1.0}
-"""Episodes so short and starts so near the edge that episodes end all the time, in both ways."""
-
-
-def marine(count: int, **keywords: Any) -> VecEnv:
-    return MarineVecEnv(gym.make_vec(ID, num_envs=count, autoreset_mode=AutoresetMode.SAME_STEP, **keywords))
-
-
-def dummy(count: int, **keywords: Any) -> VecEnv:
-    return DummyVecEnv([partial(gym.make, ID, disable_env_checker=True, **keywords)] * count)
 
 
 BOTH = [marine, dummy]
@@ -42,22 +33,6 @@ def both(count: int, seed: int | None = 0, **keywords: Any) -> tuple[VecEnv, Vec
             envs.seed(seed)
         envs.reset()
     return made
-
-
-def actions_for(count: int, periods: int, scale: float = 1.0) -> np.ndarray:
-    return np.random.default_rng(0).uniform(-scale, scale, (periods, count, 6)).astype(np.float32)
-
-
-def assert_same_step(ours: Any, theirs: Any) -> None:
-    """Infos of episodes that go on may be left out, whole or in part."""
-    for name, own, expected in zip(("observations", "rewards", "dones"), ours, theirs, strict=False):
-        assert same(own, expected), f"{name}: {own}, not {expected}"
-    assert isinstance(ours[3], list)
-    for own, expected, done in zip(ours[3], theirs[3], ours[2], strict=True):
-        if done:
-            assert same(own, expected), f"{own}, not {expected}"
-        else:
-            assert all(same(value, expected[key]) for key, value in own.items())
 
 
 # Stepping

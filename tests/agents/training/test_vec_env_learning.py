@@ -7,53 +7,27 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import gymnasium as gym
 import numpy as np
 import pytest
 from stable_baselines3 import PPO, SAC
 from stable_baselines3.common.evaluation import evaluate_policy
 from stable_baselines3.common.vec_env import (
-    DummyVecEnv,
     VecEnv,
     VecFrameStack,
     VecMonitor,
     VecNormalize,
     sync_envs_normalization,
 )
+from support import sb3_envs
 from support.equivalence import same
-
-from dq_marine.agents.training.vec_env import MarineVecEnv
+from support.sb3_envs import actions_for, assert_same_step
+from support.vector_envs import BUSY
 
 ID = "dq_marine/StationKeeping-v0"
-BUSY: dict[str, Any] = {"max_episode_steps": 7, "workspace_radius": 2.05, "current": 1.0}
-"""Episodes so short and starts so near the edge that episodes end all the time, in both ways."""
 
 
-def marine(count: int) -> VecEnv:
-    return MarineVecEnv(gym.make_vec(ID, num_envs=count, autoreset_mode="SameStep", **BUSY))
-
-
-def dummy(count: int) -> VecEnv:
-    return DummyVecEnv([partial(gym.make, ID, disable_env_checker=True, **BUSY)] * count)
-
-
+marine, dummy = partial(sb3_envs.marine, **BUSY), partial(sb3_envs.dummy, **BUSY)
 BOTH = [marine, dummy]
-
-
-def actions_for(count: int, periods: int) -> np.ndarray:
-    return np.random.default_rng(0).uniform(-1.0, 1.0, (periods, count, 6)).astype(np.float32)
-
-
-def assert_same_step(ours: Any, theirs: Any) -> None:
-    """Infos of episodes that go on may be left out, whole or in part."""
-    for name, own, expected in zip(("observations", "rewards", "dones"), ours, theirs, strict=False):
-        assert same(own, expected), f"{name}: {own}, not {expected}"
-    assert isinstance(ours[3], list)
-    for own, expected, done in zip(ours[3], theirs[3], ours[2], strict=True):
-        if done:
-            assert same(own, expected), f"{own}, not {expected}"
-        else:
-            assert all(same(value, expected[key]) for key, value in own.items())
 
 
 WRAPPERS: dict[str, Callable[[VecEnv], VecEnv]] = {
