@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import numbers
 import operator
+import os
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,21 +14,72 @@ from numpy.typing import ArrayLike, NDArray
 
 from dq_marine.errors import InvalidInputError
 
+LONGEST_SHOWN = 200
+"""Characters of a wrong value that a message repeats."""
+
+LARGEST_FILE = 64 * 2**20
+"""Bytes. A vehicle's file has a few thousand, a panel program's tables a few million."""
+
+LARGEST_INTEGER = 2**31 - 1
+"""A count beyond it is a mistake."""
+
+
+def real_numbers(name: str, value: Any, wanted: str) -> NDArray[np.float64]:
+    """Return a new float64 array of real numbers, of any shape.
+
+    Strings, complex numbers and dates are none, although NumPy would convert some of them.
+
+    Raises:
+        InvalidInputError: it is ragged, has something that is no real number, or a number that no float64 can hold.
+    """
+    if isinstance(value, np.ndarray) and value.dtype.kind == "f":  # what each step of a body is given
+        return np.array(value, dtype=np.float64)
+    try:
+        given = np.asarray(value)
+        if given.dtype == object and not all(
+            isinstance(one, numbers.Real | np.ndarray) for one in given.flat
+        ):
+            raise TypeError("not all are real numbers")
+        if given.dtype.kind not in "fiubO":
+            raise TypeError(f"{given.dtype} is no real number")
+        return np.array(given, dtype=np.float64)
+    except Exception as error:  # the value's own __array__ or __float__ may do anything
+        raise InvalidInputError(f"{name} = {shown(value)} is not numeric ({error}); give {wanted}") from error
+
+
+def shown(value: Any) -> str:
+    """Return what a message says of a value that came in from outside: its text, as printable characters, cut short."""
+    try:
+        text = repr(value)
+    except Exception as error:  # the value's own __repr__ may do anything
+        text = f"<{type(value).__name__}, whose repr fails: {type(error).__name__}>"
+    text = "".join(character if character.isprintable() else "?" for character in text)
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."
+
+
+def one_of(name: str, value: Any, choices: Iterable[Any]) -> Any:
+    """Return `value`, a text or a whole number, if it is among the choices.
+
+    Raises:
+        InvalidInputError: it is not.
+    """
+    known = list(choices)
+    if not isinstance(value, str | int) or value not in known:
+        raise InvalidInputError(f"{name} = {shown(value)} is unknown; give one of {known}")
+    return value
+
 
 def finite_array(name: str, value: ArrayLike, size: int) -> NDArray[np.float64]:
-    """Return `value` as a float64 array of shape (size,).
+    """Return `value` as a new float64 array of shape (size,).
 
     Raises:
         InvalidInputError: it is not numeric, of another shape, or has a NaN or an infinity.
     """
-    try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidInputError(f"{name} = {value!r} is not numeric; give {size} numbers") from error
+    array = real_numbers(name, value, f"{size} numbers")
     if array.shape != (size,):
         raise InvalidInputError(f"{name} has shape {array.shape}; give shape ({size},)")
     if not np.isfinite(array).all():
-        raise InvalidInputError(f"{name} = {array.tolist()} is not finite; give finite numbers")
+        raise InvalidInputError(f"{name} = {shown(array.tolist())} is not finite; give finite numbers")
     return array
 
 
@@ -63,34 +118,54 @@ def unit_quaternion(name: str, value: ArrayLike) -> NDArray[np.float64]:
     return q / length
 
 
+def whole_number(name: str, value: Any, *, least: int, most: int | None = None) -> int:
+    """Return `value` as an int within limits.
+
+    Raises:
+        InvalidInputError: it is no integer, or beyond a limit.
+    """
+    try:
+        number = operator.index(value)
+    except Exception as error:  # the value's own __index__ may do anything
+        raise InvalidInputError(f"{name} = {shown(value)} is not an integer; give {least} or more") from error
+    if number < least:
+        raise InvalidInputError(f"{name} = {shown(number)} is below {least}; give {least} or more")
+    if most is not None and number > most:
+        raise InvalidInputError(f"{name} = {shown(number)} is too large; give one from {least} to {most}")
+    return number
+
+
 def positive_integer(name: str, value: Any) -> int:
     """Return `value` as a positive int.
 
     Raises:
-        InvalidInputError: it is not an integer of at least 1.
+        InvalidInputError: it is not an integer of at least 1, or beyond `LARGEST_INTEGER`.
     """
-    try:
-        number = operator.index(value)
-    except TypeError as error:
-        raise InvalidInputError(f"{name} = {value!r} is not an integer; give 1 or more") from error
-    if number < 1:
-        raise InvalidInputError(f"{name} = {number} is below 1; give 1 or more")
-    return number
+    return whole_number(name, value, least=1, most=LARGEST_INTEGER)
 
 
-def finite_number(name: str, value: Any, *, above: float | None = None, most: float | None = None) -> float:
-    """Return `value` as a finite float, strictly above a limit and at most another where they are given.
+def finite_number(
+    name: str,
+    value: Any,
+    *,
+    above: float | None = None,
+    least: float | None = None,
+    most: float | None = None,
+) -> float:
+    """Return `value` as a finite float: above a limit or at least another, and at most a third, where they are given.
 
     Raises:
         InvalidInputError: it is not.
     """
-    try:
-        number = float(value)
-    except (TypeError, ValueError) as error:
-        raise InvalidInputError(f"{name} = {value!r} is not a number") from error
+    array = real_numbers(name, value, "a number")
+    if array.size != 1:
+        raise InvalidInputError(f"{name} has shape {array.shape}; give a number")
+    number = float(array.item())
     if not np.isfinite(number) or (above is not None and number <= above):
         limit = "finite" if above is None else f"finite and above {above:g}"
         raise InvalidInputError(f"{name} = {number:g} is not {limit}; give one that is")
+    if least is not None and number < least:
+        raise InvalidInputError(f"{name} = {number:g}; give at least {least:g}")
     if most is not None and number > most:
         raise InvalidInputError(f"{name} = {number:g}; give at most {most:g}")
     return number
@@ -105,16 +180,25 @@ def finite_rows(name: str, value: ArrayLike, rows: int, size: int) -> NDArray[np
     Raises:
         InvalidInputError: it is not numeric, of another shape, or has a NaN or an infinity.
     """
-    try:
-        array = np.ascontiguousarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidInputError(f"{name} is not numeric; give numbers of shape ({rows}, {size})") from error
+    if not (isinstance(value, np.ndarray) and value.dtype == np.float64):
+        value = real_numbers(name, value, f"numbers of shape ({rows}, {size})")
+    array = np.ascontiguousarray(value)
     if array.shape == (size,):
         array = np.full((rows, size), array)
     if not array.flags.writeable:
         array = array.copy()
     if array.shape != (rows, size):
         raise InvalidInputError(f"{name} has shape {array.shape}; give shape ({rows}, {size}) or ({size},)")
+    check_finite_rows(name, array)
+    return array
+
+
+def check_finite_rows(name: str, array: NDArray[Any]) -> None:
+    """Check that an array of rows of numbers has no NaN and no infinity.
+
+    Raises:
+        InvalidInputError: it has one; the message says in which row.
+    """
     # The sum is finite unless a component is not, or numbers near the largest add up beyond it: look closer then.
     with np.errstate(over="ignore", invalid="ignore"):
         total = array.sum()
@@ -124,7 +208,6 @@ def finite_rows(name: str, value: ArrayLike, rows: int, size: int) -> NDArray[np
             raise InvalidInputError(
                 f"{name}[{bad[0]}] = {array[bad[0]].tolist()} is not finite; give finite numbers"
             )
-    return array
 
 
 def unit_quaternion_rows(name: str, value: ArrayLike, rows: int) -> NDArray[np.float64]:
@@ -142,3 +225,26 @@ def unit_quaternion_rows(name: str, value: ArrayLike, rows: int) -> NDArray[np.f
         )
     unit: NDArray[np.float64] = q / lengths[:, None]
     return unit
+
+
+def existing_file(name: str, path: str | os.PathLike[str]) -> Path | None:
+    """Return the path of a regular file, with a leading ~ resolved; None if there is none.
+
+    Args:
+        name: of what the file is for, for the message.
+        path: as the user gave it.
+
+    Raises:
+        InvalidInputError: no file can have such a path, or it is larger than `LARGEST_FILE`.
+    """
+    text = os.fspath(path)
+    try:
+        file = Path(os.fsdecode(text)).expanduser()
+        size = file.stat().st_size if file.is_file() else None
+    except (OSError, ValueError, RuntimeError) as error:
+        raise InvalidInputError(f"{name} = {shown(text)} is no path of a file: {error}") from error
+    if size is not None and size > LARGEST_FILE:
+        raise InvalidInputError(
+            f"{name} = {shown(text)} has {size:,} bytes; give a file of at most {LARGEST_FILE:,}"
+        )
+    return None if size is None else file

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numba.core.errors import NumbaError
 
+from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 
 MOST_THREADS = 1024
@@ -40,7 +41,7 @@ def checked_threads(threads: int | None, blocks: int) -> int:
         or not 1 <= threads <= MOST_THREADS
     ):
         raise InvalidInputError(
-            f"threads = {threads!r}; give None or a whole number from 1 to {MOST_THREADS}"
+            f"threads = {shown(threads)}; give None or a whole number from 1 to {MOST_THREADS}"
         )
     return min(int(threads), blocks)
 

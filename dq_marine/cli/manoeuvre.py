@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from rich.markup import escape
 
 from dq_marine.cli.common import HELP_OPTIONS, console, error_console, examples
 
@@ -324,8 +325,10 @@ def _run_and_show(
         from dq_marine.manoeuvres.canvas import check_picture_path  # imports matplotlib
 
         check_picture_path(path)
-    with error_console.status(f"{name} of {vehicle.name}") as status:
-        result = run(vehicle, lambda phase, time: status.update(f"{phase} of {vehicle.name}: {time:.4g} s"))
+    with error_console.status(f"{name} of {escape(vehicle.name)}") as status:
+        result = run(
+            vehicle, lambda phase, time: status.update(f"{phase} of {escape(vehicle.name)}: {time:.4g} s")
+        )
     if outputs.json:
         typer.echo(json_format.dumps(result.as_dict(), indent=2, allow_nan=False))
     else:

@@ -97,7 +97,7 @@ def observation_table(definition: TaskDefinition, vehicle: Vehicle) -> TextTable
         (f"`{one.name}`", str(one.size), one.unit or "1", _plain(one.bound), one.meaning) for one in observed
     ]
     columns = ("name", "numbers", "unit", "bound", "meaning")
-    if definition.goal_reward is None:
+    if not definition.has_goals:
         return TextTable("observation", columns, rows)
     parts = [(f"`{one.part}`",) for one in observed]
     return TextTable("observation", ("part", *columns), [a + b for a, b in zip(parts, rows, strict=True)])

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from rich.markup import escape
 
 from dq_marine.cli.common import HELP_OPTIONS, console, examples
 
@@ -56,7 +57,7 @@ def check(
     sheet = vehicle_sheet(vehicle, speed=speed)
     if not json:
         console.print(
-            f"{file} is valid: {vehicle.name}, {vehicle.rigid_body.mass:g} kg",
+            f"{escape(str(file))} is valid: {escape(vehicle.name)}, {vehicle.rigid_body.mass:g} kg",
             highlight=False,
             soft_wrap=True,
         )

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias, get_args
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal, Self, TypeAlias, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+
+from dq_marine.checks import shown
+from dq_marine.physics.implausible import Implausible
 
 Row6: TypeAlias = tuple[float, float, float, float, float, float]
 Row3: TypeAlias = tuple[float, float, float]
@@ -14,6 +18,9 @@ Motion: TypeAlias = Literal["surge", "sway", "heave", "roll", "pitch", "yaw"]
 
 MOTIONS: tuple[str, ...] = get_args(Motion)
 """Names of the six axes, in Fossen's order."""
+
+LARGEST_NUMBER = 1e20
+"""Of a vehicle file. The largest in the catalogue, a moment of inertia of a tanker, is below 1e14."""
 
 NonNegative: TypeAlias = Annotated[float, Field(ge=0)]
 Positive: TypeAlias = Annotated[float, Field(gt=0)]
@@ -47,3 +54,32 @@ class Table(BaseModel):
     """A table of a vehicle file: frozen, without unknown keys, without NaN or infinity, without coercion."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    @model_validator(mode="after")
+    def _can_be_computed_with_and_shown(self) -> Self:
+        for name in type(self).model_fields:
+            for leaf in _leaves(getattr(self, name)):
+                if isinstance(leaf, str):
+                    _check_text(name, leaf)
+                elif abs(leaf) > LARGEST_NUMBER:
+                    raise Implausible(
+                        name,
+                        f"{leaf:g}",
+                        f"no ship has a number beyond {LARGEST_NUMBER:g} in SI units",
+                        "check exponent and unit",
+                    )
+        return self
+
+
+def _leaves(value: Any) -> Iterator[float | str]:
+    """Yield the numbers and texts of a field, of nested tuples too; tables look after their own."""
+    if isinstance(value, float | int | str):
+        yield value
+    elif isinstance(value, tuple):
+        for part in value:
+            yield from _leaves(part)
+
+
+def _check_text(name: str, text: str) -> None:
+    if not text.replace("\n", "").replace("\t", "").isprintable():
+        raise Implausible(name, shown(text), "it has control characters", "write it in printable characters")

@@ -10,6 +10,7 @@ import numpy as np
 from dq_marine.algebra.dual_quaternion import pose_from_parts
 from dq_marine.algebra.nesting import nested
 from dq_marine.algebra.spatial import ZERO, Spatial
+from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.water import Water
 from dq_marine.physics.branching import branching_pose_force, branching_velocity_force
@@ -70,7 +71,7 @@ def checked_forces(forces: Sequence[ForceTerm]) -> tuple[ForceTerm, ...]:
         InvalidInputError: one is wrong, or they are no sequence.
     """
     if isinstance(forces, ForceTerm) or not isinstance(forces, Sequence):
-        raise InvalidInputError(f"forces = {forces!r}; give a list of dq_marine.physics.term.ForceTerm")
+        raise InvalidInputError(f"forces = {shown(forces)}; give a list of dq_marine.physics.term.ForceTerm")
     return tuple(checked_force(force) for force in forces)
 
 
@@ -82,7 +83,7 @@ def checked_force(force: ForceTerm) -> ForceTerm:
     """
     if not isinstance(force, ForceTerm):
         raise InvalidInputError(
-            f"forces has {force!r}; give dq_marine.physics.term.ForceTerm(name, function, parameters)"
+            f"forces has {shown(force)}; give dq_marine.physics.term.ForceTerm(name, function, parameters)"
         )
     pose = pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     arguments = (pose, ZERO, 0.0) if force.uses_velocity else (pose, 0.0)

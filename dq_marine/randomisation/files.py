@@ -9,6 +9,7 @@ from typing import TypeVar
 
 from pydantic import ValidationError
 
+from dq_marine.checks import existing_file, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.fields import Table
 from dq_marine.randomisation.distributions import KINDS
@@ -33,11 +34,11 @@ def read_file(kind: type[Content], name_or_path: str | os.PathLike[str]) -> Cont
     text = os.fspath(name_or_path)
     if text in randomisation_names():
         return _read(kind, _FOLDER / f"{text}.toml")
-    path = Path(text).expanduser()
-    if path.is_file():
+    path = existing_file("randomisation", text)
+    if path is not None:
         return _read(kind, path)
     raise InvalidInputError(
-        f"there is no randomisation {text!r}; there are {', '.join(randomisation_names())}, and the path of an "
+        f"there is no randomisation {shown(text)}; there are {', '.join(randomisation_names())}, and the path of an "
         "existing .toml file is taken too"
     )
 
@@ -48,7 +49,7 @@ def _read(kind: type[Content], path: Path) -> Content:
     except ValidationError as error:  # before its base class, which TOML's errors share
         lines = [mistake(detail, _place(detail["loc"])) for detail in error.errors(include_url=False)]
         raise InvalidInputError(f"{path} is refused:\n  " + "\n  ".join(lines)) from error
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise InvalidInputError(f"{path}: not a TOML file: {error}") from error
     except OSError as error:
         raise InvalidInputError(f"{path}: cannot be read: {error.strerror}") from error

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dq_marine.checks import positive_integer
+from dq_marine.checks import positive_integer, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.fields import Table
 from dq_marine.randomisation.drawing import (
@@ -110,7 +110,7 @@ class Randomisation(Table):
         if count > LARGEST_POOL:
             raise InvalidInputError(f"the number of vehicles = {count}; give at most {LARGEST_POOL}")
         if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-            raise InvalidInputError(f"the vehicles' seed = {seed!r}; give a whole number of 0 or more")
+            raise InvalidInputError(f"the vehicles' seed = {shown(seed)}; give a whole number of 0 or more")
         # A copy made in code may hold lists, which have no hash and which pydantic warns of.
         own = validated(vehicle.model_dump(warnings=False), vehicle.name)
         return _pool(self, own, count, int(seed))

@@ -21,7 +21,7 @@ from dq_marine.backend.compilation import compile_function
 from dq_marine.backend.packing import make_load, pack, store, structure_type
 from dq_marine.integrator.body import AT_REST
 from dq_marine.integrator.drift import MAX_PIECES, DriftScheme, Solve, make_drift_by, make_newton
-from dq_marine.integrator.drift_report import ACCEPTED_RESIDUAL, DIRECT, DriftReport
+from dq_marine.integrator.drift_report import ACCEPTED_RESIDUAL, SolverReport
 from dq_marine.integrator.inertia import Inertia
 from dq_marine.integrator.midpoint_drift import MIDPOINT
 from dq_marine.integrator.paper_drift import PAPER
@@ -45,7 +45,7 @@ def make_walk(scheme: DriftScheme) -> Solve:
     """Return (inertia, a, b) -> (equation, report): the solution walked to from rest."""
     newton = make_newton(scheme)
 
-    def walk(inertia: Inertia, a: Vector3, b: Vector3) -> tuple[Any, DriftReport]:
+    def walk(inertia: Inertia, a: Vector3, b: Vector3) -> tuple[Any, SolverReport]:
         reached, stride, iterations = 0.0, LONGEST_STRIDE, 0
         here, report = newton(inertia, scale(0.0, a), scale(0.0, a), scale(0.0, b))
         while reached < 1.0 and stride >= SHORTEST_STRIDE and iterations < MOST_ITERATIONS:
@@ -57,7 +57,7 @@ def make_walk(scheme: DriftScheme) -> Solve:
                 here, reached, stride = there, target, min(2.0 * stride, LONGEST_STRIDE)
             else:
                 stride *= 0.5
-        return here, DriftReport(here.relative_residual_squared, reached >= 1.0, iterations, DIRECT)
+        return here, SolverReport(here.relative_residual_squared, reached >= 1.0, iterations)
 
     return walk
 
@@ -85,7 +85,7 @@ def compiled_walk(name: str, layout: Any) -> Callable[..., bool]:
         pose, momentum = load_state(state)
         for _ in range(pieces):
             pose, momentum, report = drift(numbers, h / pieces, pose, momentum)
-            if not report.on_rest_branch:
+            if not report.solver.on_rest_branch:
                 return False
         store(state, (pose, momentum))
         return True

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.checks import one_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.actuation import NO_ACTUATION
 from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
@@ -37,10 +38,8 @@ def check_method(scheme: str, order: int) -> None:
     Raises:
         InvalidInputError: with the reason.
     """
-    if scheme not in SCHEMES:
-        raise InvalidInputError(f"scheme = {scheme!r} is unknown; give one of {sorted(SCHEMES)}")
-    if order not in ORDERS:
-        raise InvalidInputError(f"order = {order!r}; give one of {list(ORDERS)}")
+    one_of("scheme", scheme, sorted(SCHEMES))
+    one_of("order", order, ORDERS)
 
 
 class Method(NamedTuple):

@@ -32,6 +32,7 @@ from dq_marine.integrator.step import (
 )
 from dq_marine.simulation.lane_channels import LaneChannels
 from dq_marine.simulation.one_body import check_momentum
+from dq_marine.simulation.states import check_size, check_states
 
 STATUS, FALLBACKS, RESIDUAL_SQUARED = range(3)
 """Fields of an outcome."""
@@ -244,7 +245,8 @@ class Batch:
         """
         given = finite_rows("state", state, self.size, BODY_NUMBERS + 2 * self._channels.count)
         numbers, channels = given[:, :BODY_NUMBERS], given[:, BODY_NUMBERS:]
-        unit_quaternion_rows("state[:, 1:5]", numbers[:, 1:5].copy(), self.size)
+        check_size("state", given)
+        check_states("state", numbers[:, 1:])
         if (numbers[:, 0] != numbers[0, 0]).any():
             raise InvalidInputError("state[:, 0], the time, differs between bodies; a batch has one time")
         self._set_rows(numbers[:, 1:])

@@ -10,12 +10,8 @@ from dq_marine.backend.packing import unpack
 from dq_marine.checks import finite_array
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.step import Composition, StepParameters
-from dq_marine.physics.actuators.formulas.force import Transient
 from dq_marine.physics.actuators.formulas.stepping import (
-    actuators_reader,
-    actuators_writer,
     make_actuator_wrench,
-    with_transient,
 )
 
 
@@ -64,17 +60,6 @@ class BodyChannels:
     def restore(self, numbers: NDArray[np.float64]) -> None:
         """Set values and commands, shape (2 n,)."""
         self.values[:], self.commands[:] = numbers[: self.count], numbers[self.count :]
-
-    def driven(self, parameters: StepParameters, time: float) -> StepParameters:
-        """Return the parameters of a step in which the actuators go from their values to the command."""
-        if not self.count:
-            return parameters
-        actuation = self._composition.actuation
-        actuators = actuators_reader(self._composition)(parameters)
-        values, commands = (unpack(actuation.rest, numbers) for numbers in (self.values, self.commands))
-        targets = actuation.targets(actuators.channels, values, commands)
-        transient = Transient(values, targets, time)
-        return actuators_writer(self._composition)(parameters, with_transient(actuators, transient))
 
     def wrench(self, parameters: StepParameters, twist: Spatial) -> Spatial:
         """Return what the actuators do to a body that moves through the water with a twist."""

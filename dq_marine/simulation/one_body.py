@@ -17,7 +17,6 @@ from dq_marine.checks import (
     finite_number,
     length_of,
     positive_integer,
-    squared_length_of,
     unit_quaternion,
 )
 from dq_marine.errors import InvalidInputError, StepNotSolvableError
@@ -29,19 +28,22 @@ from dq_marine.integrator.step import (
     Composition,
     StepParameters,
     in_water,
-    make_advance,
     make_motion,
     make_placement,
 )
 from dq_marine.physics.current.formulas.unsteady import UnsteadyCurrent, head_for, settled
 from dq_marine.simulation.body_step import compiled_actuated_advance, compiled_advance
 from dq_marine.simulation.channels import BodyChannels
+from dq_marine.simulation.states import check_size, check_states
 
 UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
 """Quaternion of a body whose axes are those of the world."""
 
 SMALLEST_FRACTION = 2.0**-20
 """Of the scene's step: the smallest that is tried when an admissible one is sought."""
+
+MOST_STEPS_TRIED = 64
+"""Steps that an admissible step is tried for, at most."""
 
 
 class OneBody:
@@ -229,17 +231,15 @@ class OneBody:
 
     def _admissible_step(self, wrench: NDArray[np.float64], steps: int) -> float | None:
         """Return the largest h/2^k that takes the body through the refused time, if any is found."""
-        advance = make_advance(self._composition)
-        force = from_fossen(tuple(wrench.tolist()))
-        fraction = 0.5
+        values, fraction = self._channels.values.copy(), 0.5
         while fraction >= SMALLEST_FRACTION:
-            parameters = self._channels.driven(self._parameters_at(self.step_size * fraction), self.time)
-            try:
-                outcome = advance(parameters, self.state, force, self.time, min(int(steps / fraction), 64))
-                if outcome.status == ACCEPTED:
-                    return self.step_size * fraction
-            except (ArithmeticError, ValueError):
-                pass  # plain Python raises where compiled code goes on to a refused infinity
+            step = self.step_size * fraction
+            numbers = pack(in_water(self._parameters_at(step), self.parameters.water))
+            count = min(int(steps / fraction), MOST_STEPS_TRIED)
+            status, *_ = self._advance(numbers, self._state.copy(), wrench, self.time, count)
+            self._channels.values[:] = values
+            if status == ACCEPTED:
+                return step
             fraction *= 0.5
         return None
 
@@ -306,10 +306,8 @@ class OneBody:
         """
         given = finite_array("state", state, BODY_NUMBERS + 2 * self._channels.count)
         numbers, channels = given[:BODY_NUMBERS], given[BODY_NUMBERS:]
-        if abs(float(squared_length_of(numbers[1:5])) - 1.0) > 1e-6:
-            raise InvalidInputError(
-                f"state[1:5] = {numbers[1:5]} is not a unit quaternion; pass what get_state() returned"
-            )
+        check_size("state", given)
+        check_states("state", numbers[1:])
         self.time = float(numbers[0])
         self._state = numbers[1:].copy()
         self._channels.restore(channels)

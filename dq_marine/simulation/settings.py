@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields, replace
 from numbers import Integral
 from typing import Any, TypeAlias, TypedDict
 
-from dq_marine.checks import finite_number, positive_integer
+from dq_marine.checks import finite_number, one_of, positive_integer, shown
 from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.physics.actuators.build import ACTUATIONS
 from dq_marine.physics.current.build import Current, CurrentLike, current_of, plain
@@ -134,12 +134,8 @@ class Settings:
         if self.vehicle_pool > LARGEST_POOL:
             raise InvalidInputError(f"vehicle_pool = {self.vehicle_pool}; give at most {LARGEST_POOL}")
         check_method(self.scheme, self.order)
-        if self.kick not in KICKS:
-            raise InvalidInputError(f"kick = {self.kick!r} is unknown; give one of {list(KICKS)}")
-        if self.actuation not in ACTUATIONS:
-            raise InvalidInputError(
-                f"actuation = {self.actuation!r} is unknown; give one of {list(ACTUATIONS)}"
-            )
+        one_of("kick", self.kick, KICKS)
+        one_of("actuation", self.actuation, ACTUATIONS)
         checked_hydrostatics(self.hydrostatics, self.flown)
 
     def _given_current(self, randomisation: Randomisation | None) -> Any:
@@ -244,5 +240,5 @@ class Settings:
 
 def _whole_number(name: str, value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, Integral) or value < 0:
-        raise InvalidInputError(f"{name} = {value!r}; give a whole number of 0 or more")
+        raise InvalidInputError(f"{name} = {shown(value)}; give a whole number of 0 or more")
     return int(value)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import tomllib
 from pathlib import Path
 from typing import Any
 
+from dq_marine.checks import existing_file, shown
 from dq_marine.errors import InvalidInputError, VehicleFileError
 from dq_marine.physics.waves.radiation import read_radiation
 from dq_marine.vehicles.model import Vehicle
@@ -54,12 +56,12 @@ def load_vehicle(vehicle: Vehicle | str | os.PathLike[str]) -> Vehicle:
     text = os.fspath(vehicle)
     if text in vehicle_names():
         return _read(catalogue_file(text))
-    path = Path(text).expanduser()
-    if path.is_file():
+    path = existing_file("vehicle", text)
+    if path is not None:
         return _read(path)
-    kind = "file" if path.suffix == ".toml" or os.sep in text else "vehicle"
+    kind = "file" if text.endswith(".toml") or os.sep in text else "vehicle"
     raise InvalidInputError(
-        f"there is no {kind} {text!r}; the catalogue holds {', '.join(vehicle_names())}, and the path of an "
+        f"there is no {kind} {shown(text)}; the catalogue holds {', '.join(vehicle_names())}, and the path of an "
         "existing .toml file is taken too"
     )
 
@@ -79,10 +81,12 @@ def _read(path: Path) -> Vehicle:
         raise VehicleFileError(f"{path}: not a TOML file: {error}") from error
     except OSError as error:
         raise VehicleFileError(f"{path}: cannot be read: {error.strerror}") from error
+    except (RecursionError, ValueError) as error:
+        raise VehicleFileError(f"{path}: not a vehicle file: {type(error).__name__}: {error}") from error
     beside = content.get("radiation")
     if isinstance(beside, str):
         try:
             content["radiation"] = read_radiation(path.parent / beside)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, csv.Error) as error:
             raise VehicleFileError(f"{path}: radiation = {beside!r} cannot be read: {error}") from error
     return validated(content, str(path), VehicleFileError)

@@ -8,6 +8,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.implausible import Implausible
 from dq_marine.vehicles.model import Vehicle
@@ -40,11 +41,11 @@ def mistake(detail: ErrorDetails, place: tuple[int | str, ...]) -> str:
         return f"{cause.field} = {cause.value}: {cause.problem}; {cause.remedy}"
     field = ".".join(str(part) for part in place)
     if detail["type"] == "extra_forbidden":
-        return f"{field} = {detail['input']!r}: unknown key; remove it or correct its spelling"
+        return f"{field} = {shown(detail['input'])}: unknown key; remove it or correct its spelling"
     if detail["type"] == "missing":
         return f"{field}: missing; add it"
     problem = _PROBLEMS.get(detail["type"], detail["msg"].removeprefix("Value error, "))
-    return f"{field} = {detail['input']!r}: {problem}"
+    return f"{field} = {shown(detail['input'])}: {problem}"
 
 
 _PROBLEMS = {

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from dq_marine.algebra.spatial import to_fossen
 from dq_marine.backend.packing import unpack
+from dq_marine.checks import real_numbers
 from dq_marine.envs.core.episode import Episode
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.inertia import twist_from_momentum
@@ -103,10 +104,7 @@ def whole_action(mapping: ActionMapping, action: Any) -> NDArray[np.float64]:
     Raises:
         InvalidInputError: it is not numeric, or of a wrong shape.
     """
-    try:
-        given = np.array(action, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidInputError(f"action = {action!r} is not numeric") from error
+    given = real_numbers("action", action, f"{mapping.places.size} numbers")
     if given.shape != mapping.places.shape:
         raise InvalidInputError(f"action has shape {given.shape}; give shape {mapping.places.shape}")
     if mapping.size == given.size:

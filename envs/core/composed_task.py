@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from dq_marine.backend.control_period import compiled_control_period
 from dq_marine.backend.packing import structure_type
-from dq_marine.checks import finite_number
+from dq_marine.checks import finite_number, shown
 from dq_marine.envs.core.action_mapping import action_mapping_of
 from dq_marine.envs.core.currents import check_current
 from dq_marine.envs.core.definition import EpisodeContext, Observed, TaskDefinition
@@ -79,7 +79,7 @@ class ComposedTask:
         if settings is not None and given:
             raise InvalidInputError(f"settings and {sorted(given)} are given; give the one or the others")
         if settings is not None and not isinstance(settings, Settings):
-            raise InvalidInputError(f"settings = {settings!r}; give a dq_marine.Settings")
+            raise InvalidInputError(f"settings = {shown(settings)}; give a dq_marine.Settings")
         chosen = settings or Settings(**(_defaults(definition) | given))
         finite_number("control_period", chosen.control_period, above=0.0)
         own = definition.checked_settings(of_task, chosen.flown)

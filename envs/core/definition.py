@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dq_marine.algebra.quaternion import Quaternion
 from dq_marine.algebra.vector3 import Vector3
-from dq_marine.checks import finite_number
+from dq_marine.checks import finite_number, shown
 from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.task.protocol import Task
 
@@ -144,6 +144,11 @@ class TaskDefinition:
         return tuple(self.task.rewards._fields)
 
     @property
+    def has_goals(self) -> bool:
+        """Whether its observation shows goals, and its environment tells the reward at others."""
+        return self.goal_reward is not None
+
+    @property
     def keywords(self) -> tuple[str, ...]:
         """Names of its own keywords."""
         return tuple(one.name for one in fields(self.settings))
@@ -172,7 +177,7 @@ class TaskDefinition:
             return self.weights
         given = reward._asdict() if isinstance(reward, type(self.weights)) else reward
         if not isinstance(given, Mapping):
-            raise InvalidInputError(f"reward = {reward!r}; give a dictionary with keys among {known}")
+            raise InvalidInputError(f"reward = {shown(reward)}; give a dictionary with keys among {known}")
         unknown = sorted(map(str, set(given) - set(known)))
         if unknown:
             raise InvalidInputError(f"reward has unknown keys {unknown}; it takes {known}")

@@ -9,13 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.backend.packing import unpack
-from dq_marine.checks import finite_array, finite_number
+from dq_marine.backend.packing import pack, unpack
+from dq_marine.checks import finite_array, finite_number, shown, whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.body import AT_REST, BodyState
+from dq_marine.integrator.step import StepParameters, in_water
+from dq_marine.simulation.states import check_size, check_states
+from dq_marine.task.start import CLOCK_SPAN
 
-COUNTS = ("periods", "vehicle")
-"""Entries of an episode that are whole numbers."""
+SINGLE_PRECISION = 1e-6
+"""By which numbers may differ, relative, that went through environments of single precision."""
 
 
 @dataclass
@@ -63,23 +66,65 @@ class Episode:
             name: value.copy() if isinstance(value, np.ndarray) else value for name, value in values.items()
         }
 
-    def restored(self, saved: dict[str, Any]) -> Episode:
-        """Return the episode saved by `to_dict`, whose arrays must have the sizes of this one's.
 
-        Raises:
-            InvalidInputError: an entry is missing, unknown, of another size or not finite.
-        """
-        own = self.to_dict()
-        if set(saved) != set(own):
-            raise InvalidInputError(f"the state has entries {sorted(saved)}; it needs {sorted(own)}")
-        periods, vehicle = (int(saved[name]) for name in COUNTS)
-        clock = finite_number("state['clock']", saved["clock"])
-        arrays = {
-            name: finite_array(f"state[{name!r}]", saved[name], value.size).astype(value.dtype)
-            for name, value in own.items()
-            if isinstance(value, np.ndarray)
-        }
-        return Episode(**arrays, periods=periods, vehicle=vehicle, clock=clock)
+def restored_episode(template: Episode, like: StepParameters, saved: dict[str, Any]) -> Episode:
+    """Return the episode saved by `Episode.to_dict`.
+
+    Args:
+        template: an episode of the environment that is to go on with it, of the same vehicle.
+        like: the step's parameters in that environment; a saved episode's differ in their water only.
+        saved: what comes in from outside.
+
+    Raises:
+        InvalidInputError: an array is of another size, not finite, or not what an episode can have.
+    """
+    episode = Episode(
+        **_arrays(template, saved),
+        periods=whole_number("state['periods']", saved["periods"], least=0),
+        vehicle=template.vehicle,
+        clock=finite_number("state['clock']", saved["clock"], least=0.0, most=CLOCK_SPAN),
+    )
+    check_states("state['state']", episode.state)
+    if np.abs(episode.action).max(initial=0.0) > 1.0:
+        raise InvalidInputError(f"state['action'] = {episode.action.tolist()} is beyond [-1, 1]")
+    in_own_water = in_water(like, unpack(like, episode.parameters).water)
+    if not np.allclose(pack(in_own_water), episode.parameters, rtol=SINGLE_PRECISION, atol=0.0):
+        raise InvalidInputError(
+            "state['parameters'] are of another vehicle or scene; restore it in one made alike"
+        )
+    positive = template.episode_parameters > 0.0
+    lost = np.flatnonzero(positive & (episode.episode_parameters <= 0.0))
+    if lost.size:
+        raise InvalidInputError(
+            f"state['episode_parameters'][{lost[0]}] = {episode.episode_parameters[lost[0]]:g} must be positive, as "
+            f"{template.episode_parameters[lost[0]]:g} is, which it has in this environment"
+        )
+    return episode
+
+
+def check_entries(state: Any) -> None:
+    """Check that a saved state has the entries that `MarineEnv.get_state` gives it.
+
+    Raises:
+        InvalidInputError: it is no dictionary, or an entry is missing or unknown.
+    """
+    needed = {*(field.name for field in fields(Episode)), "random"}
+    if not isinstance(state, dict) or set(state) != needed:
+        found = sorted(map(shown, state)) if isinstance(state, dict) else shown(state)
+        raise InvalidInputError(
+            f"the state is not what get_state() returned: it has {found}, and needs the entries {sorted(needed)}"
+        )
+
+
+def _arrays(template: Episode, saved: dict[str, Any]) -> dict[str, NDArray[Any]]:
+    """Return the saved arrays, each in size and type like the template's, and of numbers that can be computed with."""
+    arrays = {}
+    for name, own in template.to_dict().items():
+        if isinstance(own, np.ndarray):
+            given = finite_array(f"state[{name!r}]", saved[name], own.size)
+            check_size(f"state[{name!r}]", given)
+            arrays[name] = given.astype(own.dtype)
+    return arrays
 
 
 def restored_generator(saved: Any) -> np.random.Generator:
@@ -91,6 +136,6 @@ def restored_generator(saved: Any) -> np.random.Generator:
     random = np.random.default_rng()
     try:
         random.bit_generator.state = copy.deepcopy(saved)
-    except (TypeError, ValueError, KeyError) as error:
+    except Exception as error:  # NumPy takes what it is given apart without checking it first
         raise InvalidInputError(f"state['random'] is not a generator's state: {error}") from error
     return random

@@ -22,7 +22,7 @@ def check_goals(definition: TaskDefinition, observations: Sequence[Observed]) ->
     if strange:
         raise InvalidInputError(f"{definition.id} observes in parts {strange}; there are {list(PARTS)}")
     achieved, desired = (sizes[part] for part in PARTS[1:])
-    if definition.goal_reward is None:
+    if not definition.has_goals:
         if achieved or desired:
             raise InvalidInputError(f"{definition.id} observes goals, but has no goal_reward; define it")
         return

@@ -20,8 +20,8 @@ from dq_marine.envs.core.action_mapping import whole_action
 from dq_marine.envs.core.beginning import begun_episode
 from dq_marine.envs.core.composed_task import ComposedTask
 from dq_marine.envs.core.definition import TaskDefinition
-from dq_marine.envs.core.episode import Episode, restored_generator
-from dq_marine.envs.core.observation import in_parts, observation_space
+from dq_marine.envs.core.episode import Episode, check_entries, restored_episode, restored_generator
+from dq_marine.envs.core.observation import Observation, as_shown, observation_space
 from dq_marine.envs.core.refusal import integration_report
 from dq_marine.envs.core.start import as_chosen, drawn_uniforms
 from dq_marine.envs.core.view import EpisodeView, checked_render_mode
@@ -37,8 +37,12 @@ from dq_marine.task.start import CLOCK_SPAN, Drawn, beginning_draws, make_draw
 from dq_marine.vehicles import Vehicle
 from dq_marine.viewer.snapshot import Snapshot
 
-Observation = NDArray[np.float32] | dict[str, NDArray[np.float32]]
 Action = NDArray[np.float32]
+FLAGS = (np.array(False), np.array(True))
+"""What infos say of a condition, to be copied: arrays, which Gymnasium's vector environments merge into arrays."""
+
+NO_FALLBACKS = np.int64(0)
+"""What nearly all infos say of the steps by the fallback, made once."""
 
 
 class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
@@ -133,7 +137,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self._episode.clock = CLOCK_SPAN * self.np_random.random()
         self.refusal = None
         self._view.begin(self)
-        return self._shown(self._episode), self._info(self._episode, refused=False)
+        return self.observation, self._info(self._episode, refused=False, fallbacks=0)
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
@@ -182,8 +186,8 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self.refusal = None
         if self._view.wants_frames:
             self._view.show(self)
-        info = self._info(episode, refused=status != ACCEPTED)
-        return self._shown(episode), reward, terminated != 0.0, False, info
+        info = self._info(episode, refused=status != ACCEPTED, fallbacks=fallbacks)
+        return as_shown(episode.observation, self.observation_places), reward, terminated != 0.0, False, info
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return a picture, uint8 (height, width, 3), in mode "rgb_array"; None otherwise.
@@ -220,7 +224,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     @property
     def observation(self) -> Observation:
         """What the last `reset` or `step` returned."""
-        return self._shown(self._running("observation"))
+        return as_shown(self._running("observation").observation, self.observation_places)
 
     @property
     def motion(self) -> Motion:
@@ -260,13 +264,16 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         """Restart bit for bit from what `get_state` returned, here or in an environment made alike.
 
         Raises:
-            InvalidInputError: entries are missing, unknown or of the wrong size; nothing is changed.
+            InvalidInputError: entries are missing, unknown, of the wrong size, or not what an episode of this
+                environment can have; nothing is changed.
         """
-        if not isinstance(state, dict) or "random" not in state:
-            raise InvalidInputError("the state is not what get_state() returned: it has no entry 'random'")
-        template = self._new_episode(self.episode_parameters({}), self._blank_start())
-        episode = template.restored({name: value for name, value in state.items() if name != "random"})
-        self.pool.check_number(episode.vehicle)
+        check_entries(state)
+        number = self.pool.checked_number(state["vehicle"])
+        parameters = self.pool.fitted(self.episode_parameters({}), number)
+        template = self._new_episode(parameters, self._blank_start(), number)
+        episode = restored_episode(template, self.pool.parameters[number], state)
+        if not self.observation_space.contains(as_shown(episode.observation, self.observation_places)):
+            raise InvalidInputError("state['observation'] is beyond the observation space")
         random = restored_generator(state["random"])
         self.adopt(episode, random)
         self._view.begin(self)
@@ -325,17 +332,13 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         parts = (self.scene.composition, self.task, self.pool.parameters[number], parameters, drawn)
         return begun_episode(*parts, number, self.action_mapping.size)
 
-    def _shown(self, episode: Episode) -> Observation:
-        if self.observation_places is None:
-            return episode.observation.copy()
-        return in_parts(episode.observation, self.observation_places)
-
-    def _info(self, episode: Episode, *, refused: bool) -> dict[str, Any]:
+    def _info(self, episode: Episode, *, refused: bool, fallbacks: int) -> dict[str, Any]:
         numbers, success = episode.report, self._success_place
         info: dict[str, Any] = dict(zip(self._report_names, numbers, strict=False))
-        info["is_success"] = np.array(numbers[success] != 0.0)
+        info["is_success"] = FLAGS[bool(numbers[success])].copy()
         info["current_ned"] = numbers[success + 1 :].copy()
-        info["refused"] = np.array(refused)
+        info["refused"] = FLAGS[refused].copy()
+        info["fallback_substeps"] = np.int64(fallbacks) if fallbacks else NO_FALLBACKS
         if self._has_choice:
             info["vehicle"] = np.int64(episode.vehicle)
         return info

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from dq_marine.envs.core.definition import PARTS, Observed
 
+Observation = NDArray[np.float32] | dict[str, NDArray[np.float32]]
+
 Places = Mapping[str, NDArray[np.intp]]
 """Where the numbers of each part are among the flat ones."""
 
@@ -32,6 +34,8 @@ def observation_space(bound: NDArray[np.float32], places: Places | None) -> gym.
     )
 
 
-def in_parts(flat: NDArray[np.float32], places: Places) -> dict[str, NDArray[np.float32]]:
-    """Return copies of the parts of flat observations, shape (..., n)."""
+def as_shown(flat: NDArray[np.float32], places: Places | None) -> Observation:
+    """Return a copy of flat observations, shape (..., n), or of their parts."""
+    if places is None:
+        return flat.copy()
     return {name: flat[..., own] for name, own in places.items()}

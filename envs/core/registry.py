@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import gymnasium as gym
 
+from dq_marine.checks import shown
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.errors import InvalidInputError
 
@@ -56,7 +57,7 @@ def register_task(definition: TaskDefinition, module: str | None = None) -> None
     if definition.id not in gym.registry:
         gym.register(
             id=definition.id,
-            entry_point=SINGLE if definition.goal_reward is None else SINGLE_WITH_GOALS,
+            entry_point=SINGLE_WITH_GOALS if definition.has_goals else SINGLE,
             vector_entry_point=VECTOR,
             max_episode_steps=definition.max_episode_steps,
             kwargs={"task": definition.id},
@@ -84,7 +85,7 @@ def task_named(task: TaskDefinition | str) -> TaskDefinition:
         return task
     if task not in _TASKS:
         raise InvalidInputError(
-            f"there is no task {task!r}; there are {sorted(_TASKS)}, and what dq_marine.register_task is given"
+            f"there is no task {shown(task)}; there are {sorted(_TASKS)}, and what dq_marine.register_task is given"
         )
     return _TASKS[task]
 

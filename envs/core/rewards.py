@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from dq_marine.checks import finite_number
+from dq_marine.checks import finite_number, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.protocol import RewardTerm
 
@@ -20,12 +20,12 @@ def checked_extra_rewards(terms: Sequence[RewardTerm], definition: TaskDefinitio
         InvalidInputError: they are no terms, a weight is not finite, or a name is taken.
     """
     if isinstance(terms, RewardTerm) or not isinstance(terms, Sequence):
-        raise InvalidInputError(f"extra_rewards = {terms!r}; give a list of dq_marine.RewardTerm")
+        raise InvalidInputError(f"extra_rewards = {shown(terms)}; give a list of dq_marine.RewardTerm")
     taken = list(definition.reward_names)
     for term in terms:
         if not isinstance(term, RewardTerm) or not callable(term.function):
             raise InvalidInputError(
-                f"extra_rewards has {term!r}; give dq_marine.RewardTerm(name, function, weight)"
+                f"extra_rewards has {shown(term)}; give dq_marine.RewardTerm(name, function, weight)"
             )
         finite_number(f"weight of the reward {term.name!r}", term.weight)
         if term.name in taken:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.algebra.spatial import ZERO, from_fossen, to_fossen
-from dq_marine.checks import finite_array, unit_quaternion
+from dq_marine.checks import finite_array, shown, unit_quaternion
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.protocol import Start
 from dq_marine.task.start import Drawn
@@ -52,6 +52,16 @@ def drawn_uniforms(
     return random.random(count) if np.isfinite(action).all() else np.zeros(count)
 
 
+def check_is_options(options: Any) -> None:
+    """Refuse what is no dictionary, nor None.
+
+    Raises:
+        InvalidInputError: it is neither.
+    """
+    if options is not None and not isinstance(options, dict):
+        raise InvalidInputError(f"options = {shown(options)}; give a dictionary, or None")
+
+
 def checked_options(options: dict[str, Any] | None, own: Mapping[str, int]) -> dict[str, NDArray[np.float64]]:
     """Return `reset`'s options as arrays.
 
@@ -62,10 +72,11 @@ def checked_options(options: dict[str, Any] | None, own: Mapping[str, int]) -> d
     Raises:
         InvalidInputError: a key is unknown or a value wrong.
     """
+    check_is_options(options)
     if options is None:
         return {}
     sizes = {**START_OPTIONS, **own}
-    unknown = sorted(set(options) - set(sizes))
+    unknown = sorted(shown(name) for name in options if name not in sizes)
     if unknown:
         raise InvalidInputError(f"options has unknown keys {unknown}; it takes {list(sizes)}")
     return {name: _checked(name, value, sizes[name]) for name, value in options.items()}

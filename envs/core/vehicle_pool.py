@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.backend.packing import pack, structure_type
 from dq_marine.backend.simd.vehicles import PoolLayout, member_index
+from dq_marine.checks import whole_number
 from dq_marine.envs.core.currents import numbers_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.step import StepParameters
@@ -59,16 +61,13 @@ class VehiclePool:
         """Return an episode's parameters with those of one vehicle."""
         return episode_parameters._replace(wrench_limits=wrench_limits_of(self.vehicles[number]))
 
-    def check_number(self, number: int) -> None:
-        """Refuse a number that is no vehicle's.
+    def checked_number(self, number: Any) -> int:
+        """Return the number of a vehicle in a saved state.
 
         Raises:
-            InvalidInputError: it is not.
+            InvalidInputError: it is no vehicle's.
         """
-        if not 0 <= number < len(self.vehicles):
-            raise InvalidInputError(
-                f"state['vehicle'] = {number}; the environment has vehicles 0 to {len(self.vehicles) - 1}"
-            )
+        return whole_number("state['vehicle']", number, least=0, most=len(self.vehicles) - 1)
 
 
 def prepared_pool(settings: Settings) -> VehiclePool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.announce import announce
 from dq_marine.vehicles import Vehicle
@@ -51,7 +52,7 @@ def checked_render_mode(mode: str | None, known: list[str]) -> str | None:
         InvalidInputError: it is none of those known.
     """
     if mode is not None and mode not in known:
-        raise InvalidInputError(f"render_mode = {mode!r}; give None or one of {known}")
+        raise InvalidInputError(f"render_mode = {shown(mode)}; give None or one of {known}")
     return mode
 
 

@@ -85,8 +85,11 @@ class LaneSingles:
     def call(self, index: int, name: str, *args: Any, **kwargs: Any) -> Any:
         """Call a method of one environment, and keep what it changes."""
         single = self.at(index)
+        before = single.episode
         result = getattr(single, name)(*args, **kwargs)
         self.memory.set_episode(index, single.episode)
+        if single.episode is not before:  # another one goes on here, whether or not the last had ended
+            self.memory.arrays.ended[index] = False
         self._set_generator(index, single.np_random)
         self.actions[index] = single.episode.action
         self.fallbacks[index] = single.fallback_substeps
@@ -142,7 +145,7 @@ def made_singles(
             be recorded.
         VehicleFileError: a vehicle file is wrong.
     """
-    made = MarineEnv if definition.goal_reward is None else GoalMarineEnv
+    made = GoalMarineEnv if definition.has_goals else MarineEnv
     if arguments.pop("record", False):
         raise InvalidInputError(
             "record = True; a vector environment records nothing, make a single one for that"

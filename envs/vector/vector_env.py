@@ -19,10 +19,10 @@ from dq_marine.backend.simd.period import (
     renew_at_same_step,
 )
 from dq_marine.backend.workers import Workers
-from dq_marine.checks import positive_integer
+from dq_marine.checks import positive_integer, shown, whole_number
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.marine_env import MarineEnv
-from dq_marine.envs.core.observation import in_parts
+from dq_marine.envs.core.observation import as_shown
 from dq_marine.envs.core.registry import task_named
 from dq_marine.envs.core.view import open_page, shape_of
 from dq_marine.envs.vector.lane_memory import FALLBACKS, LaneMemory
@@ -227,8 +227,8 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             InvalidInputError: there is no such environment.
             MissingDependencyError: meshcat is not installed.
         """
-        if index is not None and not 0 <= index < self.num_envs:
-            raise InvalidInputError(f"index = {index}; give one from 0 to {self.num_envs - 1}")
+        if index is not None:
+            index = whole_number("index", index, least=0, most=self.num_envs - 1)
         if self._watch is not None:
             self._watch.close()
             self._watch = None
@@ -257,7 +257,7 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             ResetNeeded: before the first reset.
         """
         self._need_reset("an environment")
-        return self._lanes.at(index)
+        return self._lanes.at(whole_number("index", index, least=0, most=self.num_envs - 1))
 
     def call(self, name: str, *args: Any, **kwargs: Any) -> tuple[Any, ...]:
         """Call a method of every environment, or get an attribute; what the call changes is kept."""
@@ -290,6 +290,8 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         Raises:
             InvalidInputError: there is not one for each.
         """
+        if not isinstance(name, str):
+            raise InvalidInputError(f"name = {shown(name)}; give the name of an attribute")
         each = values if isinstance(values, list | tuple) else [values] * self.num_envs
         if len(each) != self.num_envs:
             raise InvalidInputError(f"{len(each)} values for {self.num_envs} environments; give one for each")
@@ -383,7 +385,7 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
 
     def _observations(self) -> Observations:
         flat, places = self._memory.arrays.observations[: self.num_envs], self.single.observation_places
-        return self._given(flat) if places is None else in_parts(flat, places)
+        return as_shown(flat, places) if self.copy or places is not None else flat
 
     def _given(self, array: NDArray[Any]) -> NDArray[Any]:
         return array.copy() if self.copy else array

@@ -8,15 +8,23 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
-from dq_marine.envs.core.observation import in_parts
+from dq_marine.envs.core.observation import as_shown
 from dq_marine.envs.core.refusal import integration_report
-from dq_marine.envs.vector.lane_memory import COMPLETED, RESIDUAL_SQUARED, SPEED_SQUARED, SPIN_SQUARED, STATUS
+from dq_marine.envs.vector.lane_memory import (
+    COMPLETED,
+    FALLBACKS,
+    RESIDUAL_SQUARED,
+    SPEED_SQUARED,
+    SPIN_SQUARED,
+    STATUS,
+)
 from dq_marine.envs.vector.lane_singles import LaneSingles
 
 if TYPE_CHECKING:
     from dq_marine.envs.vector.vector_env import MarineVectorEnv
 
 Flags = NDArray[np.bool_]
+Counts = NDArray[np.int64]
 
 REPORTED = (STATUS, COMPLETED, RESIDUAL_SQUARED, SPIN_SQUARED, SPEED_SQUARED)
 """Fields of an outcome that a report of a refusal is made of."""
@@ -35,10 +43,12 @@ class VectorInfos:
         self._lanes = lanes
         self._everywhere = np.ones(lanes.n, np.bool_)
         self._none_refused = np.zeros(lanes.n, np.bool_)
+        self._no_fallbacks = np.zeros(lanes.n, np.int64)
         self._flown = np.zeros(lanes.n)
         self._has_vehicles = lanes.first.pool.has_choice
         self._names = lanes.first.report_names
-        told = (*self._names, "is_success", "current_ned", "refused", *(("vehicle",) * self._has_vehicles))
+        told = (*self._names, "is_success", "current_ned", "refused", "fallback_substeps")
+        told += ("vehicle",) * self._has_vehicles
         self._masks = tuple(f"_{name}" for name in told)
         self.episodes_refused = 0
         self.refusals: dict[int, dict[str, Any]] = {}
@@ -51,7 +61,7 @@ class VectorInfos:
     def at_reset(self, wanted: Flags) -> dict[str, Any]:
         """Return the infos of environments that were reset."""
         self.refusals = {}
-        return self._reported(wanted, self._none_refused)
+        return self._reported(wanted, self._none_refused, self._no_fallbacks)
 
     def at_step(self, ended: Flags) -> dict[str, Any]:
         """Return a step's infos.
@@ -60,19 +70,23 @@ class VectorInfos:
             ended: environments whose episode ended in this step.
         """
         refused = self._refused()
+        fallbacks = self._lanes.memory.outcome(FALLBACKS).astype(np.int64)
         if self._envs.autoreset_mode is not AutoresetMode.SAME_STEP:
-            return self._reported(self._everywhere, refused)
-        infos = self._reported(self._everywhere, self._none_refused)
+            return self._reported(self._everywhere, refused, fallbacks)
+        infos = self._reported(self._everywhere, self._none_refused, np.where(ended, 0, fallbacks))
         if not ended.any():
             return infos
         observations = np.full(self._lanes.n, None, dtype=object)
         flat, places = self._lanes.memory.arrays.final_observations, self._lanes.first.observation_places
         for index in np.flatnonzero(ended).tolist():
-            observations[index] = flat[index].copy() if places is None else in_parts(flat[index], places)
+            observations[index] = as_shown(flat[index], places)
         infos |= {"final_obs": observations, "_final_obs": ended.copy()}
-        return infos | {"final_info": self._reported(ended, refused, final=True), "_final_info": ended.copy()}
+        final = self._reported(ended, refused, np.where(ended, fallbacks, 0), final=True)
+        return infos | {"final_info": final, "_final_info": ended.copy()}
 
-    def _reported(self, where: Flags, refused: Flags, *, final: bool = False) -> dict[str, Any]:
+    def _reported(
+        self, where: Flags, refused: Flags, fallbacks: Counts, *, final: bool = False
+    ) -> dict[str, Any]:
         """Return what is told of some environments, with masks."""
         arrays, n, count = self._lanes.memory.arrays, self._lanes.n, len(self._names)
         rows = (arrays.final_reports if final else arrays.reports)[:, :n]
@@ -81,6 +95,7 @@ class VectorInfos:
         infos["is_success"] = rows[count] != 0.0
         infos["current_ned"] = rows[count + 1 :].T
         infos["refused"] = refused & where
+        infos["fallback_substeps"] = fallbacks
         if self._has_vehicles:
             flown = self._flown if final else arrays.vehicles[:n]
             infos["vehicle"] = np.where(where, flown, 0.0).astype(np.int64)

@@ -10,8 +10,15 @@ from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from dq_marine.backend.simd.draws import CHOSEN_COLUMNS
-from dq_marine.checks import finite_rows, unit_quaternion_rows
-from dq_marine.envs.core.start import START_OPTIONS
+from dq_marine.checks import (
+    check_finite_rows,
+    finite_rows,
+    real_numbers,
+    shown,
+    unit_quaternion_rows,
+    whole_number,
+)
+from dq_marine.envs.core.start import START_OPTIONS, check_is_options
 from dq_marine.errors import InvalidInputError
 
 CHOSEN_SLICES = {
@@ -44,15 +51,16 @@ def checked_seeds(seed: int | Sequence[int | None] | None, n: int) -> list[int |
     """
     if seed is None:
         return [None] * n
-    if isinstance(seed, int | np.integer):
-        seeds: list[int | None] = [int(seed) + index for index in range(n)]
-    else:
-        seeds = [None if one is None else int(one) for one in seed]
-    if len(seeds) != n:
-        raise InvalidInputError(f"{len(seeds)} seeds for {n} environments; give one number, or one for each")
-    if any(one is not None and one < 0 for one in seeds):
-        raise InvalidInputError(f"seed = {seed!r}; give whole numbers of 0 or more")
-    return seeds
+    given: Any = seed
+    if not isinstance(given, list | tuple) and getattr(given, "ndim", 0) != 1:
+        first = whole_number("seed", given, least=0)
+        return [first + index for index in range(n)]
+    if len(given) != n:
+        raise InvalidInputError(f"seed = {shown(given)}; give one number, or a list of one for each of {n}")
+    return [
+        None if one is None else whole_number(f"seed[{index}]", one, least=0)
+        for index, one in enumerate(given)
+    ]
 
 
 def checked_mask(options: dict[str, Any] | None, n: int) -> NDArray[np.bool_]:
@@ -61,12 +69,13 @@ def checked_mask(options: dict[str, Any] | None, n: int) -> NDArray[np.bool_]:
     Raises:
         InvalidInputError: it is not an array of n bools with at least one True.
     """
+    check_is_options(options)
     if options is None or RESET_MASK not in options:
         return np.ones(n, np.bool_)
     mask = options[RESET_MASK]
     if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_ or mask.shape != (n,) or not mask.any():
         raise InvalidInputError(
-            f"options['{RESET_MASK}'] = {mask!r}; give a NumPy array of {n} bools, at least one of them True"
+            f"options['{RESET_MASK}'] = {shown(mask)}; give a NumPy array of {n} bools, at least one of them True"
         )
     return mask
 
@@ -77,21 +86,14 @@ def checked_actions(actions: Any, shape: tuple[int, int]) -> NDArray[Any]:
     Raises:
         InvalidInputError: they are not numeric, of another shape, or not finite.
     """
-    try:
-        given = np.asarray(actions)
-        with np.errstate(over="ignore", invalid="ignore"):
-            total = float(given.sum())
-    except (TypeError, ValueError) as error:
-        raise InvalidInputError(f"actions = {actions!r} is not numeric") from error
-    if given.shape != shape:
-        raise InvalidInputError(f"actions have shape {given.shape}; give shape {shape}")
-    if not np.isfinite(total):
-        bad = np.flatnonzero(~np.isfinite(given).all(axis=1))
-        if bad.size:
-            raise InvalidInputError(
-                f"actions[{bad[0]}] = {given[bad[0]].tolist()} is not finite; give finite numbers"
-            )
-    return given
+    if isinstance(actions, np.ndarray) and actions.dtype.kind == "f":
+        numbers: NDArray[Any] = actions
+    else:
+        numbers = real_numbers("actions", actions, f"numbers of shape {shape}")
+    if numbers.shape != shape:
+        raise InvalidInputError(f"actions have shape {numbers.shape}; give shape {shape}")
+    check_finite_rows("actions", numbers)
+    return numbers
 
 
 def split_options(
@@ -121,7 +123,7 @@ def split_options(
 def _has_rows(value: Any) -> bool:
     try:
         return np.ndim(value) == 2
-    except ValueError:  # a ragged list: the check says what is wrong with it
+    except Exception:  # a ragged list, or an object of its own mind: the check says what is wrong with it
         return False
 
 
@@ -149,4 +151,4 @@ def checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
         if plain.replace("_", "").lower() == member.value.lower():
             return member
     known = [member.value for member in AutoresetMode]
-    raise InvalidInputError(f"autoreset_mode = {mode!r} is unknown; give one of {known}")
+    raise InvalidInputError(f"autoreset_mode = {shown(mode)} is unknown; give one of {known}")

@@ -11,7 +11,7 @@ from numba.core.registry import cpu_target
 from support.bodies import make_body
 from support.child_compilation import HERE
 
-from dq_marine.integrator.drift_report import DIRECT, DriftReport
+from dq_marine.integrator.drift_report import DriftReport, SolverReport
 from dq_marine.simulation.batch import Batch
 from dq_marine.simulation.one_body import OneBody
 from dq_marine.simulation.scene import Scene
@@ -27,7 +27,7 @@ ARM = re.compile(
 
 def no_fallback(inertia, h, pose, momentum):
     """Takes the place of the fallback, which is for one body at a time, and which LLVM may inline."""
-    return pose, momentum, DriftReport(math.inf, False, 0, DIRECT)
+    return pose, momentum, DriftReport(SolverReport(math.inf, False, 0), False)
 
 
 def without_fallback(composition):

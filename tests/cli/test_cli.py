@@ -190,7 +190,7 @@ def test_python_runs_the_package_as_the_command() -> None:
         ("evaluate --set reward.effrot=1", r"reward has unknown keys \['effrot'\]"),
         ("train --print-preset --set depth=3", r"no keyword 'depth'"),
         ("evaluate --run nowhere", r"nowhere holds no run"),
-        ("evaluate --current -0.5", r"current = -0\.5 m/s; give a speed of 0 or more"),
+        ("evaluate --current -0.5", r"current = -0\.5; give at least 0"),
         ("vehicles check nowhere.toml", r"no file 'nowhere\.toml'"),
         ("vehicles sheet titanic", r"no vehicle 'titanic'"),
         ("vehicles sheet rexrov --speed 0", r"speed = 0 is not finite and above 0"),

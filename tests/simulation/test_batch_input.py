@@ -26,7 +26,7 @@ NAN_ROW = np.where(np.arange(7)[:, None] == 5, np.nan, np.zeros((7, 6)))
         (lambda b: b.reset(position_ned=NAN_ROW[:, :3]), r"position_ned\[5\]"),
         (lambda b: b.reset(velocity_body=NAN_ROW), r"velocity_body\[5\]"),
         (lambda b: b.reset((1.0, 2.0, 3.0), velocity_body=np.zeros(5)), r"velocity_body has shape \(5,\)"),
-        (lambda b: b.set_state(np.zeros((7, 15))), r"state.*length 0"),
+        (lambda b: b.set_state(np.zeros((7, 15))), r"state.*length is 0"),
         (lambda b: b.set_state(np.zeros((7, 14))), r"shape \(7, 14\)"),
         (lambda b: b.set_state(b.get_state() + np.arange(7)[:, None] * np.eye(15)[0]), "one time"),
     ],

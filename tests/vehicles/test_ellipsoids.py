@@ -80,7 +80,7 @@ def test_a_released_sphere_accelerates_with_its_added_mass():
     [
         ((0.0, 1.0, 1.0), {}, "a = 0 is not finite and above 0"),
         ((1.0, -1.0, 1.0), {}, "b = -1"),
-        ((1.0, 1.0, "wide"), {}, "c = 'wide' is not a number"),
+        ((1.0, 1.0, "wide"), {}, "c = 'wide' is not numeric"),
         ((1.0, 1.0, 1.0), {"mass": -1.0}, "mass = -1"),
         ((1.0, 1.0, 1.0), {"mass": 1e9}, r"is refused:\n  rigid_body.mass = .*mean density"),
         ((1.0, 1.0, 1.0), {"water_density": math.nan}, "water_density = nan"),

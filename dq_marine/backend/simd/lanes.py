@@ -16,7 +16,7 @@ from dq_marine.backend.lane_type import Lanes
 from dq_marine.backend.simd.packing import Packing, make_load_block, make_store_block, packing_of
 from dq_marine.backend.simd.rows import make_load_rows
 from dq_marine.backend.table_type import check_tables
-from dq_marine.errors import InvalidInputError
+from dq_marine.checks import one_of
 from dq_marine.integrator.body import AT_REST
 from dq_marine.integrator.step import Composition, StepParameters, make_advance
 
@@ -36,10 +36,8 @@ def lanes_of(precision: str, arithmetic: str) -> Lanes:
     Raises:
         InvalidInputError: a name is unknown.
     """
-    if precision not in PRECISIONS:
-        raise InvalidInputError(f"precision = {precision!r} is unknown; give one of {list(PRECISIONS)}")
-    if arithmetic not in ARITHMETICS:
-        raise InvalidInputError(f"arithmetic = {arithmetic!r} is unknown; give one of {list(ARITHMETICS)}")
+    one_of("precision", precision, PRECISIONS)
+    one_of("arithmetic", arithmetic, ARITHMETICS)
     number = PRECISIONS[precision]
     return Lanes(number, BYTES_OF_A_VECTOR * 8 // number.bitwidth, number, arithmetic == "fast")
 

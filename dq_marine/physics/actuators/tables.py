@@ -146,7 +146,7 @@ class Thruster(Propulsion):
     def unit_direction(self) -> Vector3:
         """The direction, of unit length."""
         x, y, z = self.direction
-        length = math.sqrt(x * x + y * y + z * z)
+        length = math.hypot(x, y, z)
         return (x / length, y / length, z / length)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dq_marine.algebra.nesting import nested
-from dq_marine.checks import finite_array, finite_number, positive_integer
+from dq_marine.checks import finite_array, finite_number, positive_integer, real_numbers, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.water import CurrentDraw
 from dq_marine.physics.current.formulas.sheared import Layer, ShearedCurrent, make_sheared_water
@@ -55,7 +55,7 @@ class CurrentProfile:
         Raises:
             InvalidInputError: they are not as above, not finite, or too fast for water.
         """
-        count = np.size(np.asarray(depths, dtype=object))
+        count = real_numbers("current.depths", depths, "a list of depths").size
         z = finite_array("current.depths", depths, count)
         if not 2 <= count <= MOST_DEPTHS:
             raise InvalidInputError(f"current.depths has {count} numbers; give 2 to {MOST_DEPTHS}")
@@ -227,12 +227,11 @@ def current_of(current: Any) -> Current:
         return current
     if isinstance(current, Mapping):
         return _from_mapping(current)
-    if np.ndim(current) > 0:
-        return UniformCurrent(vector3(finite_array("current", current, 3)))
-    speed = finite_number("current", current)
-    if speed < 0.0:
-        raise InvalidInputError(f"current = {speed:g} m/s; give a speed of 0 or more, or three components")
-    return DrawnCurrent(speed)
+    if isinstance(current, Sequence) or (isinstance(current, np.ndarray) and current.ndim):
+        velocity = finite_array("current", current, 3)
+        _check_speed("current", velocity)
+        return UniformCurrent(vector3(velocity))
+    return DrawnCurrent(finite_number("current", current, least=0.0, most=FASTEST_WATER))
 
 
 def draw_of(current: Current) -> CurrentDraw:
@@ -262,16 +261,20 @@ def _from_mapping(given: Mapping[str, Any]) -> Varying:
             try:
                 return kind(**given)
             except TypeError as error:
-                raise InvalidInputError(f"current = {dict(given)!r} lacks some of {sorted(names)}") from error
+                raise InvalidInputError(
+                    f"current = {shown(dict(given))} lacks some of {sorted(names)}"
+                ) from error
     known = " or ".join(str([one.name for one in fields(kind)]) for kind in KINDS)
-    raise InvalidInputError(f"current has keys {sorted(given)}; give {known}")
+    raise InvalidInputError(f"current has keys {sorted(map(shown, given))}; give {known}")
 
 
 def _rows(velocities: Any) -> Iterator[Any]:
     try:
         return iter(velocities)
-    except TypeError as error:
-        raise InvalidInputError(f"current.velocities = {velocities!r}; give a row for each depth") from error
+    except Exception as error:  # the value's own __iter__ may do anything
+        raise InvalidInputError(
+            f"current.velocities = {shown(velocities)}; give a row for each depth"
+        ) from error
 
 
 def _check_speed(name: str, velocities: Array) -> None:

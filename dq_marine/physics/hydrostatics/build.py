@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dq_marine.checks import one_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.hydrostatics.flotation import cells_of, hull_stiffness, own_inertia_factor
 from dq_marine.physics.hydrostatics.formulas.hull import Columns, make_box_buoyancy
@@ -44,8 +45,7 @@ def checked_hydrostatics(kind: str, vehicle: Vehicle) -> str:
     Raises:
         InvalidInputError: there is no such kind, or the vehicle has no hull.
     """
-    if kind not in HYDROSTATICS:
-        raise InvalidInputError(f"hydrostatics = {kind!r} is unknown; give one of {list(HYDROSTATICS)}")
+    one_of("hydrostatics", kind, HYDROSTATICS)
     if kind == "hull" and not vehicle.hull:
         raise InvalidInputError(
             f"hydrostatics = 'hull', but {vehicle.name} has no hull; add [[hull]] boxes to its file, or give 'linear'"

@@ -26,6 +26,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.physics.waves.rao import ForceRAO
 from dq_marine.physics.waves.sea import Sea
 from dq_marine.physics.waves.submerged import stations
+from dq_marine.physics.waves.tables import check_rising, check_table
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
@@ -60,14 +61,9 @@ class Radiation:
         Raises:
             InvalidInputError: with the reason.
         """
-        n = np.size(self.frequencies)
-        if np.shape(self.frequencies) != (n,) or not n or np.any(np.diff(self.frequencies) <= 0.0):
-            raise InvalidInputError("frequencies must be a list of numbers that rise")
+        check_rising("frequencies", self.frequencies)
         for name in ("added_mass", "damping"):
-            if np.shape(getattr(self, name)) != (n, 6, 6):
-                raise InvalidInputError(f"{name} has shape {np.shape(getattr(self, name))}; give ({n}, 6, 6)")
-            if not np.isfinite(getattr(self, name)).all():
-                raise InvalidInputError(f"{name} has a NaN or an infinity; give finite numbers")
+            check_table(name, getattr(self, name), (len(self.frequencies), 6, 6))
 
     def at(self, frequencies: Array) -> tuple[Array, Array]:
         """Return added mass and damping at frequencies, each (len(frequencies), 6, 6); held beyond the ends."""

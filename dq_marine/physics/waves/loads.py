@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.term import ForceTerm
 from dq_marine.physics.waves.floating import Radiation, long_wave_rao, radiation_of
@@ -44,7 +45,7 @@ class WaveLoads:
             InvalidInputError: with the reason.
         """
         if not isinstance(self.sea, Sea):
-            raise InvalidInputError(f"sea = {self.sea!r}; give a dq_marine.physics.weather.Sea")
+            raise InvalidInputError(f"sea = {shown(self.sea)}; give a dq_marine.physics.weather.Sea")
         if self.rao is not None and (self.radiation is not None or self.stiffness is not None):
             raise InvalidInputError(
                 "rao and radiation or stiffness are given, but with transfer functions nothing else is asked; give one"

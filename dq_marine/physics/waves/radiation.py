@@ -9,6 +9,7 @@ from typing import Any, Self
 import numpy as np
 from pydantic import Field, model_validator
 
+from dq_marine.checks import existing_file
 from dq_marine.physics.fields import MOTIONS, Matrix6, Positive, Table
 from dq_marine.physics.implausible import Implausible
 
@@ -58,8 +59,11 @@ def read_radiation(file: Path) -> dict[str, Any]:
 
     Raises:
         OSError: the file cannot be read.
-        ValueError: a column is missing, a name unknown, or a number none; the message names the line.
+        ValueError: it is no regular file, or too large; a column is missing, a name unknown, or a number none; the
+            message names the line.
     """
+    if existing_file("radiation", file) is None:
+        raise ValueError("there is no such file")
     entries: dict[float, dict[str, list[list[float]]]] = {}
     with file.open(newline="", encoding="utf-8") as lines:
         rows = csv.DictReader(lines)

@@ -12,6 +12,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.physics.term import ForceTerm
 from dq_marine.physics.waves.formulas.transfer import WaveTransfer, transferred_waves
 from dq_marine.physics.waves.sea import Sea, table
+from dq_marine.physics.waves.tables import check_rising, check_table
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -51,17 +52,12 @@ class ForceRAO:
         Raises:
             InvalidInputError: with the reason.
         """
-        n, m = np.size(self.frequencies), np.size(self.headings)
-        if np.shape(self.frequencies) != (n,) or np.shape(self.headings) != (m,) or not n or not m:
-            raise InvalidInputError("frequencies and headings must be lists of at least one number each")
-        if np.shape(self.transfer) != (n, m, 6):
-            raise InvalidInputError(f"transfer has shape {np.shape(self.transfer)}; give shape ({n}, {m}, 6)")
-        for name in ("frequencies", "headings", "transfer"):
-            if not np.isfinite(getattr(self, name)).all():
-                raise InvalidInputError(f"{name} has a NaN or an infinity; give finite numbers")
-        if self.frequencies[0] <= 0.0 or np.any(np.diff(self.frequencies) <= 0.0):
+        check_rising("frequencies", self.frequencies)
+        check_rising("headings", self.headings)
+        check_table("transfer", self.transfer, (len(self.frequencies), len(self.headings), 6))
+        if self.frequencies[0] <= 0.0:
             raise InvalidInputError("frequencies must be positive and rise")
-        if np.any(np.diff(self.headings) <= 0.0) or self.headings[-1] - self.headings[0] >= 2.0 * math.pi:
+        if self.headings[-1] - self.headings[0] >= 2.0 * math.pi:
             raise InvalidInputError(
                 "headings must rise, by less than a turn in all (0 and 2 pi are the same)"
             )

@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 import json
 import os
+import zipfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from dq_marine.checks import existing_file, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.waves.rao import ForceRAO
 
@@ -37,9 +39,12 @@ def read_force_rao(path: str | os.PathLike[str]) -> ForceRAO:
     readers = {".csv": _from_csv, ".json": _from_json, ".npz": _from_npz}
     if file.suffix not in readers:
         raise InvalidInputError(f"{file} is no {', '.join(readers)} file; give one of these")
+    found = existing_file("path", file)
+    if found is None:
+        raise InvalidInputError(f"there is no file {shown(str(file))}")
     try:
-        return readers[file.suffix](file)
-    except (OSError, KeyError, TypeError, ValueError) as error:
+        return readers[file.suffix](found)
+    except (OSError, KeyError, TypeError, ValueError, RecursionError, csv.Error, zipfile.BadZipFile) as error:
         if isinstance(error, InvalidInputError):
             raise InvalidInputError(f"{file}: {error}") from error
         raise InvalidInputError(f"{file} cannot be read: {type(error).__name__}: {error}") from error

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dq_marine.algebra.table import Table
-from dq_marine.checks import finite_number, positive_integer
+from dq_marine.checks import finite_number, positive_integer, shown, whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.waves.dispersion import wave_numbers
 from dq_marine.physics.waves.formulas.kinematics import WaveField
@@ -36,10 +36,7 @@ def generator(seed: int) -> np.random.Generator:
     Raises:
         InvalidInputError: it is no integer of 0 or more.
     """
-    try:
-        return np.random.default_rng(seed)
-    except (TypeError, ValueError) as error:
-        raise InvalidInputError(f"seed = {seed!r}; give an integer of 0 or more") from error
+    return np.random.default_rng(whole_number("seed", seed, least=0))
 
 
 @dataclass(frozen=True)
@@ -81,7 +78,7 @@ class Sea:
         """
         if not isinstance(self.spectrum, Spectrum):
             raise InvalidInputError(
-                f"spectrum = {self.spectrum!r}; give a Jonswap, PiersonMoskowitz or ModifiedPiersonMoskowitz"
+                f"spectrum = {shown(self.spectrum)}; give a Jonswap, PiersonMoskowitz or ModifiedPiersonMoskowitz"
             )
         finite_number("direction", self.direction)
         if positive_integer("components", self.components) > MOST_COMPONENTS:

@@ -14,6 +14,7 @@ from dq_marine.physics.term import ForceTerm
 from dq_marine.physics.waves.floating import draft_of
 from dq_marine.physics.waves.formulas.slow_drift import DriftRoots, WaveDrift, wave_drift
 from dq_marine.physics.waves.sea import Sea, table
+from dq_marine.physics.waves.tables import check_rising, check_table
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
@@ -42,17 +43,8 @@ class DriftCoefficients:
         Raises:
             InvalidInputError: with the reason.
         """
-        n = np.size(self.frequencies)
-        if np.shape(self.frequencies) != (n,) or not n or np.any(np.diff(self.frequencies) <= 0.0):
-            raise InvalidInputError("frequencies must be a list of numbers that rise")
-        if np.shape(self.coefficients) != (n, 3):
-            raise InvalidInputError(
-                f"coefficients has shape {np.shape(self.coefficients)}; give shape ({n}, 3)"
-            )
-        if not (np.isfinite(self.frequencies).all() and np.isfinite(self.coefficients).all()):
-            raise InvalidInputError(
-                "frequencies or coefficients have a NaN or an infinity; give finite numbers"
-            )
+        check_rising("frequencies", self.frequencies)
+        check_table("coefficients", self.coefficients, (len(self.frequencies), 3))
 
     def at(self, frequencies: Array) -> Array:
         """Return the coefficients at frequencies [rad/s], shape (len(frequencies), 3)."""

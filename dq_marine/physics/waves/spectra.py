@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 LARGEST_STEEPNESS = 1.0 / 10.0
 """Largest 2 pi Hs/(g Tp^2) of a sea; waves break below it (DNV-RP-C205 limits seas to 1/15 to 1/25)."""
 
+SMALLEST, LARGEST = 1e-6, 1e6
+"""What a height [m], a period [s] or a speed [m/s] may be: far beyond, squares over- and underflow."""
+
 LARGEST_ENHANCEMENT = 20.0
 """Largest peak enhancement factor of a Jonswap spectrum."""
 
@@ -52,7 +55,8 @@ class Spectrum(ABC):
             InvalidInputError: with the value, the limit and the remedy.
         """
         for one in fields(self):
-            finite_number(one.name, getattr(self, one.name), above=0.0)
+            number = finite_number(one.name, getattr(self, one.name), above=SMALLEST, most=LARGEST)
+            object.__setattr__(self, one.name, number)
         checked_gravity(self.gravity)
         if self.steepness > LARGEST_STEEPNESS:
             raise InvalidInputError(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.term import ForceTerm
 from dq_marine.physics.waves.loads import WaveLoads
@@ -55,7 +56,7 @@ def weather_of(weather: Sequence[Any]) -> tuple[Weather, ...]:
         InvalidInputError: there is something else.
     """
     if not isinstance(weather, Sequence) or isinstance(weather, str):
-        raise InvalidInputError(f"weather = {weather!r}; give a list, such as [Sea(...), Wind(...)]")
+        raise InvalidInputError(f"weather = {shown(weather)}; give a list, such as [Sea(...), Wind(...)]")
     return tuple(made for part in weather for made in _made(part))
 
 
@@ -74,7 +75,8 @@ def _made(part: Any) -> tuple[Weather, ...]:
     if isinstance(part, Weather):
         return (part,)
     raise InvalidInputError(
-        f"weather has {part!r}; give Sea(...), WaveLoads(...), SlowDrift(...), Wind(...), or a dictionary with a kind"
+        f"weather has {shown(part)}; give Sea(...), WaveLoads(...), SlowDrift(...), Wind(...), or a dictionary with "
+        "a kind"
     )
 
 
@@ -91,14 +93,14 @@ def _from_dictionary(arguments: dict[str, Any]) -> tuple[Weather, ...]:
             sea = _sea(given)
             return (WaveLoads(sea), SlowDrift(sea)) if slow_drift else (WaveLoads(sea),)
     except TypeError as error:
-        raise InvalidInputError(f"weather has {arguments!r}: {error}") from error
-    raise InvalidInputError(f"weather has {arguments!r} of kind {kind!r}; give 'sea' or 'wind'")
+        raise InvalidInputError(f"weather has {shown(arguments)}: {error}") from error
+    raise InvalidInputError(f"weather has {shown(arguments)} of kind {shown(kind)}; give 'sea' or 'wind'")
 
 
 def _sea(given: dict[str, Any]) -> Sea:
     name = given.pop("spectrum", "jonswap")
     if name not in SPECTRA:
-        raise InvalidInputError(f"spectrum = {name!r} is unknown; give one of {list(SPECTRA)}")
+        raise InvalidInputError(f"spectrum = {shown(name)} is unknown; give one of {list(SPECTRA)}")
     make, names = SPECTRA[name]
     own = {key: given.pop(key) for key in (*names, "gravity") if key in given}
     return Sea(make(**own), **given)
@@ -121,7 +123,7 @@ def plain_weather(weather: Sequence[Any]) -> list[dict[str, Any]]:
         ):
             plain[-1]["slow_drift"] = True
         else:
-            raise InvalidInputError(f"weather has {part!r}, which has no JSON; give it in Python")
+            raise InvalidInputError(f"weather has {shown(part)}, which has no JSON; give it in Python")
     return plain
 
 
@@ -130,5 +132,5 @@ def _plain_sea(sea: Sea) -> dict[str, Any]:
     names: dict[type[Any], str] = {kind: name for name, (kind, _) in SPECTRA.items()}
     spectrum = sea.spectrum
     if type(spectrum) not in names:
-        raise InvalidInputError(f"weather has {sea!r}, whose spectrum has no JSON; give it in Python")
+        raise InvalidInputError(f"weather has {shown(sea)}, whose spectrum has no JSON; give it in Python")
     return {"kind": "sea", "spectrum": names[type(spectrum)], **asdict(spectrum), **own}

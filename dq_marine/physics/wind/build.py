@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.checks import finite_number, positive_integer
+from dq_marine.checks import finite_number, positive_integer, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.matrices import vector3
 from dq_marine.physics.term import ForceTerm
@@ -67,6 +67,7 @@ class Windage:
             value = finite_number(f"windage.{field.name}", getattr(self, field.name))
             if value < 0.0 and field.name not in ("above_origin", "c_n"):
                 raise InvalidInputError(f"windage.{field.name} = {value:g}; give 0 or more")
+            object.__setattr__(self, field.name, value)
 
     @staticmethod
     def of(vehicle: Vehicle) -> Windage:
@@ -126,12 +127,13 @@ class Wind:
         speed = finite_number("speed", self.speed)
         if not 0.0 <= speed <= STRONGEST:
             raise InvalidInputError(f"speed = {speed:g} m/s; give 0 to {STRONGEST:g}")
-        finite_number("direction_from", self.direction_from)
-        finite_number("air_density", self.air_density, above=0.0)
+        object.__setattr__(self, "speed", speed)
+        object.__setattr__(self, "direction_from", finite_number("direction_from", self.direction_from))
+        object.__setattr__(self, "air_density", finite_number("air_density", self.air_density, above=0.0))
         if positive_integer("components", self.components) > MOST_COMPONENTS:
             raise InvalidInputError(f"components = {self.components}; give at most {MOST_COMPONENTS}")
         if self.windage is not None and not isinstance(self.windage, Windage):
-            raise InvalidInputError(f"windage = {self.windage!r}; give a Windage, or None")
+            raise InvalidInputError(f"windage = {shown(self.windage)}; give a Windage, or None")
         generator(self.seed)
 
     @property

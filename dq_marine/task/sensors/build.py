@@ -23,6 +23,7 @@ from typing import Any, TypeAlias
 
 from dq_marine.algebra.nesting import nested
 from dq_marine.algebra.vector3 import Vector3
+from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.sensors.instruments import (
     ACCELEROMETER,
@@ -151,7 +152,7 @@ def sensors_of(sensors: Sensors) -> tuple[Sensor, ...]:
     if isinstance(sensors, str):
         if sensors not in PRESETS:
             raise InvalidInputError(
-                f"sensors = {sensors!r} is unknown; give one of {sorted(PRESETS)}, or a list"
+                f"sensors = {shown(sensors)} is unknown; give one of {sorted(PRESETS)}, or a list"
             )
         return PRESETS[sensors]
     if isinstance(sensors, Mapping):
@@ -159,7 +160,7 @@ def sensors_of(sensors: Sensors) -> tuple[Sensor, ...]:
     given: list[Any] = list(sensors) if isinstance(sensors, Sequence) else [sensors]
     if not all(isinstance(one, Sensor) for one in given):
         raise InvalidInputError(
-            f"sensors = {sensors!r}; give one of {sorted(PRESETS)}, a list of sensors, or a dictionary of them"
+            f"sensors = {shown(sensors)}; give one of {sorted(PRESETS)}, a list of sensors, or a dictionary of them"
         )
     kinds = [type(one).__name__ for one in given]
     if len(set(kinds)) < len(kinds):
@@ -176,7 +177,7 @@ def plain_sensors(sensors: Sequence[Sensor]) -> dict[str, dict[str, Any]] | None
     names = {kind: name for name, kind in KINDS.items()}
     for one in sensors:
         if type(one) not in names:
-            raise InvalidInputError(f"sensors has {one!r}, which has no JSON; give it in Python")
+            raise InvalidInputError(f"sensors has {shown(one)}, which has no JSON; give it in Python")
     return {names[type(one)]: asdict(one) for one in sensors} or None
 
 
@@ -206,7 +207,7 @@ def nested_numbers(sensors: Sequence[Sensor], period: float, gravity: float) -> 
 
 
 def _from_mapping(given: Mapping[str, Mapping[str, Any]]) -> tuple[Sensor, ...]:
-    unknown = sorted(set(given) - set(KINDS))
+    unknown = sorted(shown(name) for name in given if name not in KINDS)
     if unknown:
         raise InvalidInputError(f"sensors has unknown kinds {unknown}; it takes {list(KINDS)}")
     made = []
@@ -215,7 +216,7 @@ def _from_mapping(given: Mapping[str, Mapping[str, Any]]) -> tuple[Sensor, ...]:
         known = [one.name for one in fields(kind)]
         if not isinstance(attributes, Mapping) or not set(attributes) <= set(known):
             raise InvalidInputError(
-                f"sensors[{name!r}] = {attributes!r}; give a dictionary with keys among {known}"
+                f"sensors[{name!r}] = {shown(attributes)}; give a dictionary with keys among {known}"
             )
         made.append(kind(**attributes))
     return tuple(made)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dq_marine.checks import finite_array, finite_number
+from dq_marine.checks import finite_array, finite_number, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles.analysis.lamb import ellipsoid_added_mass, ellipsoid_volume, squared_gyration_radii
 from dq_marine.vehicles.model import Vehicle
@@ -130,7 +130,7 @@ def _damping_rows(value: ArrayLike) -> NDArray[np.float64]:
         rows = np.array(value, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise InvalidInputError(
-            f"linear_damping = {value!r} is not numeric; give six numbers or a 6x6 matrix"
+            f"linear_damping = {shown(value)} is not numeric; give six numbers or a 6x6 matrix"
         ) from error
     if rows.shape not in ((6,), (6, 6)):
         raise InvalidInputError(f"linear_damping has shape {rows.shape}; give shape (6,) or (6, 6)")

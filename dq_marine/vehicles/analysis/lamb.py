@@ -13,6 +13,10 @@ CARLSON_TOLERANCE = 1e-3
 """Largest relative spread at which Carlson's series is used; its error is of the sixth power."""
 
 
+SMALLEST_AXIS, LARGEST_AXIS = 1e-6, 1e6
+"""Semi-axes [m] of what is taken for an ellipsoid: far beyond, squares over- and underflow."""
+
+
 def carlson_rd(x: float, y: float, z: float) -> float:
     """Return R_D(x, y, z) = (3/2) int_0^inf dt / sqrt((t + x)(t + y)(t + z)^3), for x, y >= 0 and z > 0.
 
@@ -59,7 +63,10 @@ def added_mass_coefficients(a: float, b: float, c: float) -> tuple[NDArray[np.fl
     Raises:
         InvalidInputError: a semi-axis is not above 0.
     """
-    a, b, c = (finite_number(name, value, above=0.0) for name, value in (("a", a), ("b", b), ("c", c)))
+    a, b, c = (
+        finite_number(name, value, least=SMALLEST_AXIS, most=LARGEST_AXIS)
+        for name, value in (("a", a), ("b", b), ("c", c))
+    )
     squares = np.array([a, b, c]) ** 2
     alpha = np.array([_alpha(squares, i) for i in range(3)])
     along = alpha / (2.0 - alpha)  # sec. 114, eq. 11

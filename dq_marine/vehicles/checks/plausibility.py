@@ -86,6 +86,8 @@ def _pair(matrix: NDArray[np.float64], i: int, j: int) -> str:
 
 def _rounded_up(value: float) -> float:
     """Return the next larger number of two digits."""
+    if not math.isfinite(value):
+        return value
     unit = 10.0 ** (math.floor(math.log10(value)) - 1)
     return math.ceil(value / unit) * unit
 

@@ -99,9 +99,7 @@ def test_an_episode_is_saved_with_its_vehicle(env):
     carried = pickle.loads(pickle.dumps(env))
     carried.set_state(state)
     assert np.array_equal(flown(carried), expected)
-    with pytest.raises(
-        InvalidInputError, match=r"state\['vehicle'\] = 5; the environment has vehicles 0 to 4"
-    ):
+    with pytest.raises(InvalidInputError, match=r"state\['vehicle'\] = 5 is too large; give one from 0 to 4"):
         env.set_state(state | {"vehicle": 5})
 
 

@@ -5,30 +5,19 @@ from functools import partial
 import gymnasium as gym
 import numpy as np
 import pytest
-from gymnasium.utils.env_checker import data_equivalence
-from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from gymnasium.vector import AutoresetMode
 from gymnasium.wrappers import vector as wrappers
 from support.environments import StationKeepingEnv
+from support.vector_envs import BUSY, reference, same
 
 import dq_marine  # noqa: F401 - registers
 
 ID = "dq_marine/StationKeeping-v0"
-BUSY = {"max_episode_steps": 7, "workspace_radius": 2.05, "current": 1.0}
-"""Episodes so short and starts so near the edge that episodes end all the time, in both ways."""
-
 NEXT_STEP, SAME_STEP, DISABLED = AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP, AutoresetMode.DISABLED
-
-same = partial(data_equivalence, exact=True)
 
 
 def compiled(count, mode=NEXT_STEP, **keywords):
     return gym.make_vec(ID, num_envs=count, autoreset_mode=mode, **keywords)
-
-
-def reference(count, mode=NEXT_STEP, **keywords):
-    """Return Gymnasium's own vector environment of `count` single ones."""
-    make = partial(gym.make, ID, disable_env_checker=True, **keywords)
-    return SyncVectorEnv([make] * count, autoreset_mode=mode)
 
 
 def actions_for(count, periods, scale=1.0):
@@ -270,3 +259,17 @@ def test_episode_statistics_see_the_mask_of_a_partial_reset():
         envs.step(actions)
     envs.reset(options={"reset_mask": np.array([False, True, False])})
     assert envs.episode_lengths.tolist() == [4, 0, 4]
+
+
+def test_an_episode_that_was_restored_goes_on_where_another_had_ended():
+    """It is not taken for the ended one, which the next step would renew."""
+    envs = compiled(3, max_episode_steps=4)
+    envs.reset(seed=0)
+    actions = actions_for(3, 12)
+    envs.step(actions[0])
+    state = envs.unwrapped.call("get_state")[1]
+    flight = [envs.step(one)[0][1] for one in actions[1:3]]
+    *_, truncated, _ = envs.step(actions[3])
+    assert truncated.all()
+    envs.unwrapped.call_at(1, "set_state", state)
+    assert [envs.step(one)[0][1].tolist() for one in actions[1:3]] == [one.tolist() for one in flight]

@@ -8,9 +8,9 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.error import ResetNeeded
-from gymnasium.utils.env_checker import data_equivalence
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from support.environments import StationKeepingEnv
+from support.vector_envs import BUSY, reference, same, states
 
 import dq_marine  # noqa: F401 - registers
 from dq_marine.envs.core.marine_env import MarineEnv
@@ -19,38 +19,11 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import load_vehicle
 
 ID = "dq_marine/StationKeeping-v0"
-BUSY = {"max_episode_steps": 7, "workspace_radius": 2.05, "current": 1.0}
-"""Episodes so short and starts so near the edge that episodes end all the time, in both ways."""
-
-same = partial(data_equivalence, exact=True)
-
-
-@pytest.fixture(scope="module")
-def module_envs():
-    made = gym.make_vec(ID, num_envs=8)
-    yield made
-    made.close()
-
-
-@pytest.fixture
-def envs(module_envs):
-    module_envs.reset(seed=0)
-    return module_envs
-
-
-def reference(count, mode=AutoresetMode.NEXT_STEP, **keywords):
-    """Return Gymnasium's own vector environment of `count` single ones."""
-    make = partial(gym.make, ID, disable_env_checker=True, **keywords)
-    return SyncVectorEnv([make] * count, autoreset_mode=mode)
 
 
 def actions_for(envs, seed=0, periods=None, scale=1.0):
     shape = envs.action_space.shape if periods is None else (periods, *envs.action_space.shape)
     return np.random.default_rng(seed).uniform(-scale, scale, shape).astype(np.float32)
-
-
-def states(envs):
-    return envs.call("get_state")
 
 
 # Making

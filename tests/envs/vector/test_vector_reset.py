@@ -1,48 +1,22 @@
 """Resetting the vector environment: seeds, options for all or row by row, masks, and what is refused."""
 
 import copy
-from functools import partial
 
 import gymnasium as gym
 import numpy as np
 import pytest
-from gymnasium.utils.env_checker import data_equivalence
-from gymnasium.vector import SyncVectorEnv
 from support.environments import StationKeepingEnv
+from support.vector_envs import reference, same, states
 
 import dq_marine  # noqa: F401 - registers
 from dq_marine.errors import InvalidInputError
 
 ID = "dq_marine/StationKeeping-v0"
 
-same = partial(data_equivalence, exact=True)
-
-
-@pytest.fixture(scope="module")
-def module_envs():
-    made = gym.make_vec(ID, num_envs=8)
-    yield made
-    made.close()
-
-
-@pytest.fixture
-def envs(module_envs):
-    module_envs.reset(seed=0)
-    return module_envs
-
-
-def reference(count):
-    """Return Gymnasium's own vector environment of `count` single ones."""
-    return SyncVectorEnv([partial(gym.make, ID, disable_env_checker=True)] * count)
-
 
 def actions_for(envs, periods):
     shape = (periods, *envs.action_space.shape)
     return np.random.default_rng(0).uniform(-1.0, 1.0, shape).astype(np.float32)
-
-
-def states(envs):
-    return envs.call("get_state")
 
 
 def test_seeds_count_up_or_are_listed():

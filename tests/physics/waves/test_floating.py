@@ -317,3 +317,5 @@ def test_what_is_no_transfer_function_is_refused():
         WaveLoads(Sea(Jonswap(0.1, 4.0), depth=0.2), stiffness=stiffness()).terms(barge(), np.zeros(3))
     with pytest.raises(InvalidInputError, match=r"added_mass.*shape"):
         Radiation(np.array([1.0, 2.0]), np.zeros((3, 6, 6)), np.zeros((2, 6, 6)))
+    with pytest.raises(InvalidInputError, match="frequencies"):
+        Radiation(np.array([1.0, np.nan]), np.zeros((2, 6, 6)), np.zeros((2, 6, 6)))
