@@ -1,0 +1,30 @@
+"""A slice of the campaign of hostile cases, through every door; `python benchmarks/hostile.py` tries any number."""
+
+import pytest
+from support.sweeps import sweep
+
+from hostile.cases import judged
+from hostile.doors import DOORS
+
+MAKING = ("environment", "vector environment")
+"""Doors whose cases take long: an environment is composed anew for each."""
+
+
+@pytest.mark.parametrize("door", DOORS)
+def test_hostile_cases_are_refused_or_harmless(door):
+    for seed in range(10 if door in MAKING else 40):
+        verdict = judged(seed, door)
+        assert verdict.outcome in ("refused", "accepted"), (seed, verdict)
+
+
+@pytest.mark.parametrize("first", sweep(range(0, 4000, 1000), plain=[0]))
+def test_cases_of_the_campaign(first):
+    for seed in range(first, first + (1000 if first else 100)):
+        verdict = judged(seed)
+        assert verdict.outcome in ("refused", "accepted"), (seed, verdict)
+
+
+def test_the_campaign_has_both_ends():
+    """It would show nothing if all were refused, or none."""
+    outcomes = {judged(seed, "body").outcome for seed in range(40)}
+    assert outcomes == {"refused", "accepted"}
