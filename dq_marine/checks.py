@@ -126,6 +126,8 @@ def whole_number(name: str, value: Any, *, least: int, most: int | None = None) 
     """
     try:
         number = operator.index(value)
+        if isinstance(value, bool | np.bool_):
+            raise TypeError("a condition is no count")
     except Exception as error:  # the value's own __index__ may do anything
         raise InvalidInputError(f"{name} = {shown(value)} is not an integer; give {least} or more") from error
     if number < least:

@@ -8,9 +8,9 @@ import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.controllers.dp_controller import DPController
+from dq_marine.checks import one_of
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
-from dq_marine.errors import InvalidInputError
 
 BASELINES = ("controller", "zero", "random")
 """Names that `make_baseline` takes."""
@@ -67,10 +67,6 @@ def make_baseline(name: str, env: gym.Env[Any, Any], seed: int = 0) -> Agent:
         InvalidInputError: the name is unknown, or the controller cannot fly in this environment.
     """
     axes = int(np.prod(env.action_space.shape or ()))
-    if name == "controller":
+    if one_of("agent", name, BASELINES) == "controller":
         return DPController.for_env(env)
-    if name == "zero":
-        return ZeroAgent(axes)
-    if name == "random":
-        return RandomAgent(axes, seed)
-    raise InvalidInputError(f"agent = {name!r} is unknown; give one of {', '.join(BASELINES)}")
+    return ZeroAgent(axes) if name == "zero" else RandomAgent(axes, seed)

@@ -28,6 +28,7 @@ from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import ControllerSettings, LoopSettings
 from dq_marine.algebra.quaternion import world_down_in_body
+from dq_marine.checks import one_of
 from dq_marine.envs.core.marine_env import Action, MarineEnv
 from dq_marine.envs.core.observation import Observation
 from dq_marine.errors import InvalidInputError
@@ -214,9 +215,7 @@ class DPController:
 
 def _mapping(actuation: str, vehicle: Vehicle) -> WrenchMapping:
     """Return where wrenches go."""
-    if actuation not in WRENCH_MAPPINGS:
-        raise InvalidInputError(f"actuation = {actuation!r} is unknown; give one of {list(WRENCH_MAPPINGS)}")
-    return WRENCH_MAPPINGS[actuation](vehicle)
+    return WRENCH_MAPPINGS[one_of("actuation", actuation, WRENCH_MAPPINGS)](vehicle)
 
 
 def _six(settings: ControllerSettings, field: str) -> Array:

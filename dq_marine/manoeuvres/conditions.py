@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from dq_marine.checks import finite_number
+from dq_marine.checks import finite_number, one_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.actuators.build import ACTUATIONS
 
@@ -31,10 +31,8 @@ class Conditions:
         fraction("throttle", self.throttle)
         if self.step is not None:
             finite_number("step", self.step, above=0.0)
-        if self.actuation not in (None, *ACTUATIONS):
-            raise InvalidInputError(
-                f"actuation = {self.actuation!r} is unknown; give one of {list(ACTUATIONS)}"
-            )
+        if self.actuation is not None:
+            one_of("actuation", self.actuation, ACTUATIONS)
 
 
 def fraction(name: str, value: float) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.algebra.euler import quaternion_from_euler
-from dq_marine.checks import finite_number, positive_integer
+from dq_marine.checks import finite_number, one_of, positive_integer
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres.decrement import Decrement, decrement_of
 from dq_marine.manoeuvres.linear_modes import LinearMode, linear_mode, rest_of, stiffness_matrix
@@ -165,9 +165,7 @@ def natural_frequency(vehicle: Vehicle, axis: int) -> float:
 
 
 def _checked_axis(vehicle: Vehicle, motion: str) -> int:
-    if motion not in AXES:
-        raise InvalidInputError(f"motion = {motion!r} is unknown; give one of {list(AXES)}")
-    axis = AXES[motion]
+    axis = AXES[one_of("motion", motion, AXES)]
     if stiffness_matrix(vehicle)[axis, axis] <= 0.0:
         remedy = (
             "only vessels that float have it"

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dq_marine.checks import positive_integer, shown
+from dq_marine.checks import whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.fields import Table
 from dq_marine.randomisation.drawing import (
@@ -106,14 +106,11 @@ class Randomisation(Table):
         Raises:
             InvalidInputError: see `draw`; or size or seed is no whole number, of 1 or more and 0 or more.
         """
-        count = positive_integer("the number of vehicles", size)
-        if count > LARGEST_POOL:
-            raise InvalidInputError(f"the number of vehicles = {count}; give at most {LARGEST_POOL}")
-        if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
-            raise InvalidInputError(f"the vehicles' seed = {shown(seed)}; give a whole number of 0 or more")
+        count = whole_number("the number of vehicles", size, least=1, most=LARGEST_POOL)
+        start = whole_number("the vehicles' seed", seed, least=0)
         # A copy made in code may hold lists, which have no hash and which pydantic warns of.
         own = validated(vehicle.model_dump(warnings=False), vehicle.name)
-        return _pool(self, own, count, int(seed))
+        return _pool(self, own, count, start)
 
     def _drawn_content(self, vehicle: Vehicle, rng: np.random.Generator) -> dict[str, Any]:
         """Return a varied vehicle as its file would have it, not checked yet."""

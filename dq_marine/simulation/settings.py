@@ -6,10 +6,9 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from numbers import Integral
 from typing import Any, TypeAlias, TypedDict
 
-from dq_marine.checks import finite_number, one_of, positive_integer, shown
+from dq_marine.checks import finite_number, one_of, positive_integer, whole_number
 from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.physics.actuators.build import ACTUATIONS
 from dq_marine.physics.current.build import Current, CurrentLike, current_of, plain
@@ -125,7 +124,7 @@ class Settings:
             "substeps": positive_integer("substeps", self.substeps),
             "sensors": sensors_of(self.sensors),
             "vehicle_pool": positive_integer("vehicle_pool", self.vehicle_pool),
-            "vehicle_seed": _whole_number("vehicle_seed", self.vehicle_seed),
+            "vehicle_seed": whole_number("vehicle_seed", self.vehicle_seed, least=0),
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
@@ -236,9 +235,3 @@ class Settings:
     def with_vehicle(self, vehicle: Vehicle) -> Settings:
         """Return the same settings for another vehicle."""
         return replace(self, vehicle=vehicle)
-
-
-def _whole_number(name: str, value: Any) -> int:
-    if isinstance(value, bool) or not isinstance(value, Integral) or value < 0:
-        raise InvalidInputError(f"{name} = {shown(value)}; give a whole number of 0 or more")
-    return int(value)

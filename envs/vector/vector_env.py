@@ -19,7 +19,7 @@ from dq_marine.backend.simd.period import (
     renew_at_same_step,
 )
 from dq_marine.backend.workers import Workers
-from dq_marine.checks import positive_integer, shown, whole_number
+from dq_marine.checks import positive_integer, shown
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.envs.core.observation import as_shown
@@ -31,6 +31,7 @@ from dq_marine.envs.vector.vector_infos import VectorInfos
 from dq_marine.envs.vector.vector_options import (
     CHOSEN_SLICES,
     checked_actions,
+    checked_index,
     checked_mask,
     checked_mode,
     checked_seeds,
@@ -228,7 +229,7 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             MissingDependencyError: meshcat is not installed.
         """
         if index is not None:
-            index = whole_number("index", index, least=0, most=self.num_envs - 1)
+            index = checked_index(index, self.num_envs)
         if self._watch is not None:
             self._watch.close()
             self._watch = None
@@ -257,7 +258,7 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             ResetNeeded: before the first reset.
         """
         self._need_reset("an environment")
-        return self._lanes.at(whole_number("index", index, least=0, most=self.num_envs - 1))
+        return self._lanes.at(checked_index(index, self.num_envs))
 
     def call(self, name: str, *args: Any, **kwargs: Any) -> tuple[Any, ...]:
         """Call a method of every environment, or get an attribute; what the call changes is kept."""

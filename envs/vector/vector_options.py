@@ -140,6 +140,15 @@ def _checked_rows(
     return rows
 
 
+def checked_index(index: Any, count: int) -> int:
+    """Return the number of one of so many environments.
+
+    Raises:
+        InvalidInputError: there is no such environment.
+    """
+    return whole_number("index", index, least=0, most=count - 1)
+
+
 def checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
     """Return the mode of a member, its value or its name, in any case.
 

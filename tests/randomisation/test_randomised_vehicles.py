@@ -298,8 +298,8 @@ def test_the_spread_is_that_of_the_vehicles():
     ("change", "message"),
     [
         (lambda r, v: r.pool(v, 0), "number of vehicles = 0 is below 1"),
-        (lambda r, v: r.pool(v, 10**6), "at most 100000"),
-        (lambda r, v: r.pool(v, 2, -1), "seed = -1; give a whole number of 0 or more"),
+        (lambda r, v: r.pool(v, 10**6), "too large; give one from 1 to 100000"),
+        (lambda r, v: r.pool(v, 2, -1), "seed = -1 is below 0; give 0 or more"),
         (lambda r, v: Randomisation.load(3), "is a int; give a name"),
         (
             lambda r, v: from_tables(buoyancy={"volume": always(0.02)}).draw(v, 0),

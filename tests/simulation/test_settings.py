@@ -32,7 +32,7 @@ WRONG = {
     "sensors": ("sonar", "sensors = 'sonar' is unknown; give one of"),
     "randomise": ("wild", "wild"),
     "vehicle_pool": (0, "vehicle_pool = 0"),
-    "vehicle_seed": (-1, "vehicle_seed = -1; give a whole number of 0 or more"),
+    "vehicle_seed": (-1, "vehicle_seed = -1 is below 0; give 0 or more"),
 }
 
 

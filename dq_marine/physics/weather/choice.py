@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.checks import shown
+from dq_marine.checks import one_of, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.term import ForceTerm
 from dq_marine.physics.waves.loads import WaveLoads
@@ -98,10 +98,7 @@ def _from_dictionary(arguments: dict[str, Any]) -> tuple[Weather, ...]:
 
 
 def _sea(given: dict[str, Any]) -> Sea:
-    name = given.pop("spectrum", "jonswap")
-    if name not in SPECTRA:
-        raise InvalidInputError(f"spectrum = {shown(name)} is unknown; give one of {list(SPECTRA)}")
-    make, names = SPECTRA[name]
+    make, names = SPECTRA[one_of("spectrum", given.pop("spectrum", "jonswap"), SPECTRA)]
     own = {key: given.pop(key) for key in (*names, "gravity") if key in given}
     return Sea(make(**own), **given)
 

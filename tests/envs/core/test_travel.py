@@ -34,6 +34,7 @@ CASES = [
     for task in (STATION_KEEPING, WAYPOINT_TRACKING)
     for keywords, count in (("some", 0), ("some", 3), ("everything", 0))
 ]
+CASES += [(STATION_KEEPING, "everything", 3)]  # in lanes: the longest compilation of all, so with one task
 
 
 @pytest.mark.parametrize(
