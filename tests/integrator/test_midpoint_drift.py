@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp
-from support.bodies import random_inertia
+from support.bodies import jacobian_round_off, random_inertia
 from support.strategies import poses, vectors
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, dual_multiply, pose_from_parts, pose_position
@@ -45,7 +45,9 @@ def test_jacobian_is_the_complex_step_derivative(seed, log_condition):
         residual = drift.drift_equation(inertia, moved, a, b).residual
         columns.append(np.imag(residual) / step)
     expected = np.array(columns).T
-    assert np.abs(jacobian - expected).max() <= 1e-10 * np.abs(expected).max()
+    assert (
+        np.abs(jacobian - expected).max() <= jacobian_round_off(10.0**log_condition) * np.abs(expected).max()
+    )
 
 
 @settings(max_examples=30, deadline=None)

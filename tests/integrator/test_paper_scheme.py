@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from support import paper
-from support.bodies import make_body, random_inertia
+from support.bodies import jacobian_round_off, make_body, random_inertia
 from support.fossen import errors
 from support.fossen import solve as solve_fossen
 from support.order import observed_order
@@ -81,7 +81,7 @@ def test_the_reduced_jacobian_is_the_complex_step_derivative(seed, log_condition
     assert np.allclose(equation.residual, reduced(phi), atol=1e-9 * np.abs(m).max())
     own = np.reshape(paper_jacobian(inertia, equation), (3, 3))
     expected = complex_step(reduced, phi)
-    assert np.abs(own - expected).max() <= 1e-10 * np.abs(expected).max()
+    assert np.abs(own - expected).max() <= jacobian_round_off(10.0**log_condition) * np.abs(expected).max()
 
 
 @given(seeds)
