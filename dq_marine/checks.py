@@ -32,8 +32,8 @@ def real_numbers(name: str, value: Any, wanted: str) -> NDArray[np.float64]:
     Raises:
         InvalidInputError: it is ragged, has something that is no real number, or a number that no float64 can hold.
     """
-    if isinstance(value, np.ndarray) and value.dtype.kind == "f":  # what each step of a body is given
-        return np.array(value, dtype=np.float64)
+    if type(value) is np.ndarray and value.dtype.kind == "f":  # what each step is given
+        return value.astype(np.float64)
     try:
         given = np.asarray(value)
         if given.dtype == object and not all(

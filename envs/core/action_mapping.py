@@ -104,7 +104,7 @@ def whole_action(mapping: ActionMapping, action: Any) -> NDArray[np.float64]:
     Raises:
         InvalidInputError: it is not numeric, or of a wrong shape.
     """
-    given = real_numbers("action", action, f"{mapping.places.size} numbers")
+    given = real_numbers("action", action, "an array of the action space")
     if given.shape != mapping.places.shape:
         raise InvalidInputError(f"action has shape {given.shape}; give shape {mapping.places.shape}")
     if mapping.size == given.size:

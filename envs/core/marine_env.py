@@ -23,7 +23,7 @@ from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.episode import Episode, check_entries, restored_episode, restored_generator
 from dq_marine.envs.core.observation import Observation, as_shown, observation_space
 from dq_marine.envs.core.refusal import integration_report
-from dq_marine.envs.core.start import as_chosen, drawn_uniforms
+from dq_marine.envs.core.start import NO_UNIFORMS, as_chosen, drawn_uniforms
 from dq_marine.envs.core.view import EpisodeView, checked_render_mode
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.body import Motion
@@ -137,7 +137,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self._episode.clock = CLOCK_SPAN * self.np_random.random()
         self.refusal = None
         self._view.begin(self)
-        return self.observation, self._info(self._episode, refused=False, fallbacks=0)
+        return self.observation, self._info(self._episode, False, 0)
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
@@ -155,7 +155,8 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         """
         episode = self._running("step")
         whole = whole_action(self.action_mapping, action)
-        uniforms = drawn_uniforms(self.np_random, self._period_draws, whole)
+        draws = self._period_draws
+        uniforms = drawn_uniforms(self.np_random, draws, whole) if draws else NO_UNIFORMS
         status, completed, fallbacks, residual_squared, reward, terminated = self._compiled(
             episode.parameters,
             episode.episode_parameters,
@@ -186,7 +187,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self.refusal = None
         if self._view.wants_frames:
             self._view.show(self)
-        info = self._info(episode, refused=status != ACCEPTED, fallbacks=fallbacks)
+        info = self._info(episode, status != ACCEPTED, fallbacks)
         return as_shown(episode.observation, self.observation_places), reward, terminated != 0.0, False, info
 
     def render(self) -> NDArray[np.uint8] | None:
@@ -332,10 +333,10 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         parts = (self.scene.composition, self.task, self.pool.parameters[number], parameters, drawn)
         return begun_episode(*parts, number, self.action_mapping.size)
 
-    def _info(self, episode: Episode, *, refused: bool, fallbacks: int) -> dict[str, Any]:
+    def _info(self, episode: Episode, refused: bool, fallbacks: int) -> dict[str, Any]:
         numbers, success = episode.report, self._success_place
-        info: dict[str, Any] = dict(zip(self._report_names, numbers, strict=False))
-        info["is_success"] = FLAGS[bool(numbers[success])].copy()
+        info: dict[str, Any] = dict(zip(self._report_names, numbers))  # noqa: B905 - `strict` costs as much as a number
+        info["is_success"] = FLAGS[numbers.item(success) > 0.0].copy()
         info["current_ned"] = numbers[success + 1 :].copy()
         info["refused"] = FLAGS[refused].copy()
         info["fallback_substeps"] = np.int64(fallbacks) if fallbacks else NO_FALLBACKS

@@ -47,8 +47,6 @@ def drawn_uniforms(
     random: np.random.Generator, count: int, action: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return uniform random numbers for a control period; none are drawn for an action that will be refused."""
-    if count == 0:
-        return NO_UNIFORMS
     return random.random(count) if np.isfinite(action).all() else np.zeros(count)
 
 
