@@ -29,6 +29,7 @@ from dq_marine.checks import finite_array, finite_number
 from dq_marine.envs.core.definition import EpisodeContext, Goal, Observed
 from dq_marine.envs.core.module_task import define_task
 from dq_marine.envs.core.observed import VELOCITY
+from dq_marine.envs.core.places import goal_place
 from dq_marine.envs.core.suitability import unable_to_hold_a_pose, unable_to_travel
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import effort, make_pick, observed_velocity
@@ -57,6 +58,7 @@ __all__ = [
     "effort",
     "finite_array",
     "finite_number",
+    "goal_place",
     "make_pick",
     "make_walk",
     "norm",

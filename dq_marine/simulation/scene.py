@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.checks import finite_array, finite_number
+from dq_marine.checks import finite_array, finite_number, positive_integer, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.step import Composition, StepParameters
 from dq_marine.physics.actuators.build import actuation_term
@@ -312,6 +312,9 @@ def batch_of(
     """
     from dq_marine.simulation.batch import Batch  # here: it imports Numba
 
+    if not isinstance(scenes, Sequence) or not all(isinstance(scene, Scene) for scene in scenes):
+        raise InvalidInputError(f"scenes = {shown(scenes)}; give a list of dq_marine.Scene")
+    size = None if size is None else positive_integer("number of bodies", size)
     if not scenes or (size is not None and len(scenes) not in (1, size)):
         raise InvalidInputError(f"{len(scenes)} scenes for {size} bodies; give one, or one for each body")
     first = scenes[0]

@@ -172,7 +172,7 @@ class ComposedTask:
         Raises:
             InvalidInputError: one is unknown or wrong.
         """
-        return check_current(checked_options(options, self.definition.options), self.scene)
+        return check_current(checked_options(options, self.definition.options, self.vehicle), self.scene)
 
     def __getattr__(self, name: str) -> Any:
         """Return a keyword of the task.

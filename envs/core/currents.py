@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.step import StepParameters, in_water
-from dq_marine.physics.current.build import CurrentProfile, GaussMarkovCurrent
+from dq_marine.physics.current.build import CurrentProfile, GaussMarkovCurrent, check_speed
 from dq_marine.physics.current.formulas.uniform import STILL_WATER
 from dq_marine.simulation.scene import Scene
 
@@ -25,11 +25,12 @@ def check_current(chosen: dict[str, NDArray[np.float64]], scene: Scene) -> dict[
     """Return the options of `reset`, unless there is a current among them that the environment cannot have.
 
     Raises:
-        InvalidInputError: it has none, or a profile.
+        InvalidInputError: the water is faster than any, or the environment has no current, or a profile.
     """
     if "current" not in chosen:
         return chosen
     current = chosen["current"]
+    check_speed("options['current']", current)
     if isinstance(scene.current, CurrentProfile):
         raise InvalidInputError(
             f"options['current'] = {current.tolist()}, but the environment has a current profile, the same in every "

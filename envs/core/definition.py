@@ -19,6 +19,12 @@ if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
 
 
+LARGEST_WEIGHT = 1e6
+"""Of a term of the reward, either way: sums of such terms keep some digits of the small ones, in single precision, too."""
+
+NARROWEST_WIDTH = 1e-6
+"""Of a bell of the reward, in the unit of what it is over: nothing is told apart by less."""
+
 PARTS = ("observation", "achieved_goal", "desired_goal")
 """Of an observation of a goal-conditioned task, as Gymnasium's `GoalEnv` and hindsight replay name them."""
 
@@ -170,7 +176,7 @@ class TaskDefinition:
         """Return the weights of the reward from whatever form they are given in.
 
         Raises:
-            InvalidInputError: a name is unknown, or a value is not finite, negative, or a width of 0.
+            InvalidInputError: a name is unknown, or a value is not finite, negative, too large, or a width of 0.
         """
         known = list(self.weights._fields)
         if reward is None:
@@ -185,8 +191,5 @@ class TaskDefinition:
 
 
 def _checked_weight(name: str, value: Any) -> float:
-    number = finite_number(f"reward.{name}", value)
-    if number < 0.0 or (number == 0.0 and name.endswith("_width")):
-        limit = "above 0" if name.endswith("_width") else "0 or more"
-        raise InvalidInputError(f"reward.{name} = {number:g}; give a number {limit}")
-    return number
+    least = NARROWEST_WIDTH if name.endswith("_width") else 0.0
+    return finite_number(f"reward.{name}", value, least=least, most=LARGEST_WEIGHT)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from dq_marine.checks import finite_number, shown
+from dq_marine.envs.core.definition import LARGEST_WEIGHT
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.protocol import RewardTerm
 
@@ -17,7 +18,7 @@ def checked_extra_rewards(terms: Sequence[RewardTerm], definition: TaskDefinitio
     """Return the terms.
 
     Raises:
-        InvalidInputError: they are no terms, a weight is not finite, or a name is taken.
+        InvalidInputError: they are no terms, a weight is not finite or too large, or a name is taken.
     """
     if isinstance(terms, RewardTerm) or not isinstance(terms, Sequence):
         raise InvalidInputError(f"extra_rewards = {shown(terms)}; give a list of dq_marine.RewardTerm")
@@ -27,7 +28,8 @@ def checked_extra_rewards(terms: Sequence[RewardTerm], definition: TaskDefinitio
             raise InvalidInputError(
                 f"extra_rewards has {shown(term)}; give dq_marine.RewardTerm(name, function, weight)"
             )
-        finite_number(f"weight of the reward {term.name!r}", term.weight)
+        label = f"weight of the reward {term.name!r}"
+        finite_number(label, term.weight, least=-LARGEST_WEIGHT, most=LARGEST_WEIGHT)
         if term.name in taken:
             raise InvalidInputError(f"there are two rewards {term.name!r}; give each a name of its own")
         taken.append(term.name)

@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.algebra.spatial import ZERO, from_fossen, to_fossen
 from dq_marine.checks import finite_array, shown, unit_quaternion
+from dq_marine.envs.core.places import goal_place, near_place
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.protocol import Start
 from dq_marine.task.start import Drawn
 
+if TYPE_CHECKING:
+    from dq_marine.vehicles import Vehicle
+
 START_OPTIONS = {"position": 3, "quaternion": 4, "velocity": 6, "current": 3}
 """Options of `reset` that every task has, with their sizes, in NED and SI units; what is not given is drawn."""
+
+GOAL_POSITION = "goal_position"
+"""Option of tasks whose goal can be chosen: in NED [m], and checked to be in the water."""
 
 
 def at_origin(task_draws: int, sensing_draws: int) -> Drawn:
@@ -60,12 +67,15 @@ def check_is_options(options: Any) -> None:
         raise InvalidInputError(f"options = {shown(options)}; give a dictionary, or None")
 
 
-def checked_options(options: dict[str, Any] | None, own: Mapping[str, int]) -> dict[str, NDArray[np.float64]]:
+def checked_options(
+    options: dict[str, Any] | None, own: Mapping[str, int], vehicle: Vehicle
+) -> dict[str, NDArray[np.float64]]:
     """Return `reset`'s options as arrays.
 
     Args:
         options: as they came.
         own: the task's options, with their sizes.
+        vehicle: which is to be there.
 
     Raises:
         InvalidInputError: a key is unknown or a value wrong.
@@ -77,11 +87,15 @@ def checked_options(options: dict[str, Any] | None, own: Mapping[str, int]) -> d
     unknown = sorted(shown(name) for name in options if name not in sizes)
     if unknown:
         raise InvalidInputError(f"options has unknown keys {unknown}; it takes {list(sizes)}")
-    return {name: _checked(name, value, sizes[name]) for name, value in options.items()}
+    return {name: _checked(name, value, sizes[name], vehicle) for name, value in options.items()}
 
 
-def _checked(name: str, value: Any, size: int) -> NDArray[np.float64]:
+def _checked(name: str, value: Any, size: int, vehicle: Vehicle) -> NDArray[np.float64]:
     label = f"options[{name!r}]"
     if name.endswith("quaternion"):
         return unit_quaternion(label, value)
+    if name == GOAL_POSITION:
+        return goal_place(label, value, vehicle)
+    if name == "position":
+        return near_place(label, value)
     return finite_array(label, value, size)

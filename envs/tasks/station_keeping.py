@@ -23,8 +23,8 @@ from dq_marine.envs.kit import (
     bounded_vector,
     define_task,
     effort,
-    finite_array,
     finite_number,
+    goal_place,
     norm,
     observed_velocity,
     quaternion_conjugate,
@@ -83,7 +83,7 @@ def fitted(given: Settings, vehicle: Vehicle) -> Settings:
         raise InvalidInputError(
             f"start_radius = {start:g} m; give 0 or more and less than the workspace_radius, {workspace:g} m"
         )
-    goal_position = tuple(finite_array("goal_position", goal, 3).tolist())
+    goal_position = tuple(goal_place("goal_position", goal, vehicle).tolist())
     return replace(given, goal_position=goal_position, start_radius=start, workspace_radius=workspace)
 
 

@@ -135,8 +135,10 @@ def _checked_rows(
         rows = unit_quaternion_rows(label, value, n)
     else:
         rows = finite_rows(label, value, n, {**START_OPTIONS, **own}.get(name, 3))
-    # The largest row stands for all in what a single environment checks: names, and whether there is a current.
-    check({name: rows[int(np.abs(rows).max(axis=1).argmax())]})
+    # Two rows stand for all in what a single environment checks: the largest for names, distances and currents, the one
+    # of the least last number for places up in the air.
+    for row in {int(np.abs(rows).max(axis=1).argmax()), int(rows[:, -1].argmin())}:
+        check({name: rows[row]})
     return rows
 
 

@@ -68,7 +68,7 @@ class CurrentProfile:
             raise InvalidInputError(
                 f"current.velocities has {len(rows)} rows for {count} depths; give north and east for each depth"
             )
-        _check_speed("current.velocities", np.array(rows))
+        check_speed("current.velocities", np.array(rows))
         object.__setattr__(self, "depths", tuple(z.tolist()))
         object.__setattr__(self, "velocities", tuple((float(row[0]), float(row[1])) for row in rows))
 
@@ -142,8 +142,8 @@ class GaussMarkovCurrent:
         deviation = finite_number("current.standard_deviation", self.standard_deviation)
         if deviation < 0.0:
             raise InvalidInputError(f"current.standard_deviation = {deviation:g} m/s; give 0 or more")
-        _check_speed("current.mean", mean)
-        _check_speed("current.standard_deviation", np.array([deviation]))
+        check_speed("current.mean", mean)
+        check_speed("current.standard_deviation", np.array([deviation]))
         object.__setattr__(self, "mean", vector3(mean))
         object.__setattr__(self, "standard_deviation", deviation)
         time = finite_number("current.correlation_time", self.correlation_time, above=0.0)
@@ -229,7 +229,7 @@ def current_of(current: Any) -> Current:
         return _from_mapping(current)
     if isinstance(current, Sequence) or (isinstance(current, np.ndarray) and current.ndim):
         velocity = finite_array("current", current, 3)
-        _check_speed("current", velocity)
+        check_speed("current", velocity)
         return UniformCurrent(vector3(velocity))
     return DrawnCurrent(finite_number("current", current, least=0.0, most=FASTEST_WATER))
 
@@ -277,7 +277,12 @@ def _rows(velocities: Any) -> Iterator[Any]:
         ) from error
 
 
-def _check_speed(name: str, velocities: Array) -> None:
+def check_speed(name: str, velocities: Array) -> None:
+    """Check that no component of a current is faster than `FASTEST_WATER`.
+
+    Raises:
+        InvalidInputError: one is.
+    """
     fastest = float(np.abs(velocities).max())
     if fastest > FASTEST_WATER:
         raise InvalidInputError(f"{name} has {fastest:g} m/s; give at most {FASTEST_WATER:g} m/s")
