@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import numbers
 import operator
 import os
@@ -229,6 +230,28 @@ def unit_quaternion_rows(name: str, value: ArrayLike, rows: int) -> NDArray[np.f
     return unit
 
 
+def possible_path(name: str, path: str | os.PathLike[str]) -> Path:
+    """Return a path, at which there need not be anything, with a leading ~ resolved.
+
+    Args:
+        name: of what the path is for, for the message.
+        path: as the user gave it.
+
+    Raises:
+        InvalidInputError: nothing can have such a path.
+    """
+    text = os.fspath(path)
+    try:
+        found = Path(os.fsdecode(text)).expanduser()
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError):
+            found.stat()
+    except (OSError, ValueError, RuntimeError) as error:
+        raise InvalidInputError(
+            f"{name} = {shown(text)} is no path of a file: {error}; give another"
+        ) from error
+    return found
+
+
 def existing_file(name: str, path: str | os.PathLike[str]) -> Path | None:
     """Return the path of a regular file, with a leading ~ resolved; None if there is none.
 
@@ -239,12 +262,9 @@ def existing_file(name: str, path: str | os.PathLike[str]) -> Path | None:
     Raises:
         InvalidInputError: no file can have such a path, or it is larger than `LARGEST_FILE`.
     """
+    file = possible_path(name, path)
+    size = file.stat().st_size if file.is_file() else None
     text = os.fspath(path)
-    try:
-        file = Path(os.fsdecode(text)).expanduser()
-        size = file.stat().st_size if file.is_file() else None
-    except (OSError, ValueError, RuntimeError) as error:
-        raise InvalidInputError(f"{name} = {shown(text)} is no path of a file: {error}") from error
     if size is not None and size > LARGEST_FILE:
         raise InvalidInputError(
             f"{name} = {shown(text)} has {size:,} bytes; give a file of at most {LARGEST_FILE:,}"

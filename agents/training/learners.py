@@ -5,6 +5,8 @@ SB3's zip and pickle files run code when they are loaded: load only runs that yo
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -16,6 +18,7 @@ from dq_marine.agents.settings import PPOSettings, SACSettings, TrainingSettings
 from dq_marine.agents.training.reward_sums import RewardSums
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
 from dq_marine.agents.training.vec_env import MarineVecEnv
+from dq_marine.checks import shown
 from dq_marine.envs.vector.vector_env import MarineVectorEnv
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
@@ -108,27 +111,50 @@ def environments_of(model: Model) -> MarineVectorEnv:
 
 def save_model(model: Model, folder: Path, *, replay_buffer: bool) -> None:
     """Write model, normalisation and, where asked for and there is one, replay buffer into a folder."""
-    model.save(folder / MODEL_FILE)
+    with (folder / MODEL_FILE).open("wb") as file:  # SB3 would leave a file of its own open on a full disk
+        model.save(file)
     normalisation = model.get_vec_normalize_env()
     if normalisation is not None:
         normalisation.save(str(folder / NORMALISATION_FILE))
     if replay_buffer and isinstance(model, SAC):
-        model.save_replay_buffer(folder / REPLAY_BUFFER_FILE)
+        with (folder / REPLAY_BUFFER_FILE).open("wb") as file:
+            model.save_replay_buffer(file)
 
 
 def load_model(settings: TrainingSettings, folder: Path, seed: int, tensorboard: Path) -> Model:
     """Return the model that `save_model` wrote with its replay buffer, ready to go on learning.
 
     Episodes begin anew, from another seed than the run began with, or the same starts would be learned twice.
+
+    Raises:
+        InvalidInputError: a file is missing, or cannot be read as what it should be.
     """
-    envs = VecNormalize.load(str(folder / NORMALISATION_FILE), make_training_envs(settings).venv)
-    model = MODEL_CLASSES[settings.algorithm.name].load(
-        folder / MODEL_FILE, env=envs, device=DEVICE, tensorboard_log=str(tensorboard)
-    )
-    model.set_random_seed(seed)
-    if isinstance(model, SAC):
-        model.load_replay_buffer(folder / REPLAY_BUFFER_FILE)
+    venv = make_training_envs(settings).venv
+    with refusing_damage(folder):
+        envs = VecNormalize.load(str(folder / NORMALISATION_FILE), venv)
+        model = MODEL_CLASSES[settings.algorithm.name].load(
+            folder / MODEL_FILE, env=envs, device=DEVICE, tensorboard_log=str(tensorboard)
+        )
+        model.set_random_seed(seed)
+        if isinstance(model, SAC):
+            model.load_replay_buffer(folder / REPLAY_BUFFER_FILE)
     return model
+
+
+@contextmanager
+def refusing_damage(folder: Path) -> Iterator[None]:
+    """Say which snapshot it is, and what helps, where one cannot be loaded within the block.
+
+    Raises:
+        InvalidInputError: the block failed; what reads a pickle of another version may do so with anything.
+    """
+    try:
+        yield
+    except Exception as error:
+        raise InvalidInputError(
+            f"{folder} cannot be loaded: {shown(error)}; it is damaged, or of other settings or versions than "
+            "run.json has: restore it from a copy, install those versions, or train anew with --force"
+        ) from error
 
 
 def _ppo_keywords(algorithm: PPOSettings, envs: int) -> dict[str, Any]:

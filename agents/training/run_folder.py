@@ -25,8 +25,9 @@ from typing import Any, Literal
 from dq_marine.agents.preset_files import validate_settings
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.snapshots import Progress, is_whole, read_progress, write_progress
+from dq_marine.checks import possible_path, shown, whole_number
 from dq_marine.errors import InvalidInputError
-from dq_marine.util.files import new_folder, write_json
+from dq_marine.util.files import new_folder, unwritable, write_json
 from dq_marine.util.locks import FileLock, HeldLockError
 
 MODEL_FILE = "model.zip"
@@ -50,8 +51,12 @@ class RunFolder:
     """Reads and writes a run's folder; knows nothing of what is in the models."""
 
     def __init__(self, path: str | Path) -> None:
-        """Take a folder, which need not exist."""
-        self.path = Path(path).expanduser()
+        """Take a folder, which need not exist.
+
+        Raises:
+            InvalidInputError: no folder can have such a path.
+        """
+        self.path = possible_path("run", path)
         self.tensorboard = self.path / "tensorboard"
         self._plan_file = self.path / "run.json"
         self._summary_file = self.path / "summary.json"
@@ -61,38 +66,44 @@ class RunFolder:
         """Whether a run was begun here."""
         return self._plan_file.is_file()
 
-    def begin(self, plan: RunPlan, *, force: bool) -> None:
-        """Create the folder and write the plan.
+    @contextlib.contextmanager
+    def begun(self, plan: RunPlan, *, force: bool) -> Iterator[None]:
+        """Create the folder and write the plan; keep other processes from training here within the block.
 
         Raises:
-            InvalidInputError: a run is here and `force` is not set, or something else than a run is here.
+            InvalidInputError: a run is here and `force` is not set, something else than a run is here, another process
+                trains here, or the folder cannot be written.
         """
-        if self.holds_run:
-            if not force:
-                raise InvalidInputError(
-                    f"{self.path} holds a run already; continue it with --resume, replace it with --force, or "
-                    "choose another folder"
-                )
-            with self.locked():
-                self._remove_run()
-        elif self.path.exists() and (not self.path.is_dir() or self._holds_anything()):
-            raise InvalidInputError(
-                f"{self.path} exists and is not a run; choose a new or empty folder (nothing was removed)"
-            )
+        self._check_free(force)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
         except OSError as error:
+            raise unwritable(self.path, error) from error
+        with self.locked():
+            self._check_free(force)  # again: another process may have begun a run before the lock was ours
+            if self.holds_run:
+                self._remove_run()
+            self.write_plan(plan)
+            yield
+
+    def _check_free(self, force: bool) -> None:
+        """Refuse to begin where a run is that is not to be replaced, or something else."""
+        if self.holds_run and not force:
             raise InvalidInputError(
-                f"{self.path} cannot be made: {error.strerror}; choose a folder that can be written"
-            ) from error
-        self.write_plan(plan)
+                f"{self.path} holds a run already; continue it with --resume, replace it with --force, or choose "
+                "another folder"
+            )
+        if not self.holds_run and self._holds_anything():
+            raise InvalidInputError(
+                f"{self.path} exists and is not a run; choose a new or empty folder (nothing was removed)"
+            )
 
     @contextlib.contextmanager
     def locked(self) -> Iterator[None]:
-        """Keep other processes from training here.
+        """Keep other processes from training here within the block, which writes into the folder.
 
         Raises:
-            InvalidInputError: one trains here already, or the folder cannot be written.
+            InvalidInputError: one trains here already, or the folder cannot be written, at first or later.
         """
         try:
             lock = FileLock(self.path / LOCK_FILE)
@@ -101,9 +112,13 @@ class RunFolder:
                 f"{self.path} is being trained by process {error.owner}; wait until it has ended, or end it"
             ) from error
         except OSError as error:
-            raise InvalidInputError(f"{self.path} cannot be written: {error.strerror}") from error
+            raise unwritable(self.path, error) from error
         try:
             yield
+        except ConnectionError:  # a closed terminal, or a page that watches
+            raise
+        except OSError as error:
+            raise unwritable(self.path, error) from error
         finally:
             lock.release()
 
@@ -120,7 +135,7 @@ class RunFolder:
         """Read `run.json`.
 
         Raises:
-            InvalidInputError: there is no run here, or its plan is damaged.
+            InvalidInputError: there is no run here, or its plan is damaged or cannot be read.
         """
         if not self.holds_run:
             raise InvalidInputError(
@@ -129,9 +144,17 @@ class RunFolder:
         source = str(self._plan_file)
         try:
             content = json.loads(self._plan_file.read_text(encoding="utf-8"))
-            seed, versions, settings = content["seed"], content["versions"], content["settings"]
-        except (ValueError, KeyError, TypeError) as error:
-            raise InvalidInputError(f"{source} is damaged: {error!r}; train anew with --force") from error
+            seed = whole_number("seed", content["seed"], least=0)
+            versions = {str(name): str(number) for name, number in content["versions"].items()}
+            settings = content["settings"]
+        except OSError as error:
+            raise InvalidInputError(
+                f"{source} cannot be read: {error.strerror}; let yourself read it"
+            ) from error
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+            raise InvalidInputError(
+                f"{source} is damaged: {shown(error)}; restore it from a copy, or train anew with --force"
+            ) from error
         return RunPlan(validate_settings(settings, TrainingSettings, source=source), seed, versions)
 
     def save(self, kind: Kind, progress: Progress, write: Callable[[Path], None]) -> None:
@@ -177,9 +200,11 @@ class RunFolder:
         write_json(self._summary_file, content)
 
     def _snapshots(self, kind: Kind) -> list[Path]:
-        return list((self.path / kind).glob("[0-9]*"))
+        return [one for one in (self.path / kind).glob("[0-9]*") if one.name.isdecimal() and one.is_dir()]
 
     def _holds_anything(self) -> bool:
+        if not self.path.is_dir():
+            return self.path.exists()
         return any(one.name != LOCK_FILE for one in self.path.iterdir())
 
     def _remove_run(self) -> None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from dq_marine.checks import finite_number, whole_number
 from dq_marine.util.files import write_json
 
 PROGRESS_FILE = "progress.json"
@@ -36,23 +37,33 @@ def write_progress(folder: Path, progress: Progress) -> None:
 
 
 def read_progress(folder: Path) -> Progress:
-    """Return how far the run was at a whole snapshot."""
+    """Return how far the run was at a whole snapshot.
+
+    Raises:
+        InvalidInputError: it says what no run can have reached.
+    """
     content = _content(folder)
-    return Progress(**{name: value for name, value in content.items() if name != DIGESTS})
+    source = folder / PROGRESS_FILE
+    mean_return = content["mean_return"]
+    return Progress(
+        whole_number(f"{source}: timesteps", content["timesteps"], least=0),
+        finite_number(f"{source}: wall_time", content["wall_time"], least=0.0),
+        None if mean_return is None else finite_number(f"{source}: mean_return", mean_return),
+    )
 
 
 def is_whole(folder: Path) -> bool:
     """Whether the files of a snapshot are as they were written."""
     try:
-        content = _content(folder)
-        return bool(digests_of(folder) == content[DIGESTS] and read_progress(folder))
-    except (OSError, ValueError, KeyError, TypeError):
+        written = _content(folder)[DIGESTS]
+        return bool(read_progress(folder) and written.items() <= digests_of(folder).items())
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return False
 
 
 def digests_of(folder: Path) -> dict[str, str]:
     """Return a hash of each file of a snapshot but `PROGRESS_FILE`, by name."""
-    files = sorted(file for file in folder.iterdir() if file.name != PROGRESS_FILE)
+    files = sorted(file for file in folder.iterdir() if file.name != PROGRESS_FILE and file.is_file())
     return {file.name: _digest(file) for file in files}
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 
-from dq_marine.agents.training.learners import MODEL_CLASSES
+from dq_marine.agents.training.learners import MODEL_CLASSES, refusing_damage
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, RunFolder
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
@@ -26,7 +26,7 @@ class TrainedPolicy:
         """Load model and normalisation.
 
         Raises:
-            InvalidInputError: there is no run in the folder, or it has saved no model yet.
+            InvalidInputError: there is no run in the folder, it has saved no model yet, or what it saved is damaged.
             MissingDependencyError: Stable-Baselines3 is not installed.
         """
         self.settings = folder.read_plan().settings
@@ -37,8 +37,9 @@ class TrainedPolicy:
                 "--resume`"
             )
         model_class = MODEL_CLASSES[self.settings.algorithm.name]
-        self._model = model_class.load(snapshot / MODEL_FILE, device="cpu")
-        self._normalisation = pickle.loads((snapshot / NORMALISATION_FILE).read_bytes())  # noqa: S301 - said above
+        with refusing_damage(snapshot):
+            self._model = model_class.load(snapshot / MODEL_FILE, device="cpu")
+            self._normalisation = pickle.loads((snapshot / NORMALISATION_FILE).read_bytes())  # noqa: S301 - said above
 
     def reset(self, env: gym.Env[Any, Any]) -> None:
         """Check that the policy fits the environment; it keeps nothing from step to step.

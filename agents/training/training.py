@@ -91,8 +91,7 @@ def begin_training(
     """
     make_environment(settings.environment).close()  # so that a mistake leaves an earlier run untouched
     plan = RunPlan(settings, seed, _versions())
-    folder.begin(plan, force=force)
-    with folder.locked():
+    with folder.begun(plan, force=force):
         return _train(folder, plan, console, watch)
 
 
@@ -110,15 +109,17 @@ def resume_training(
     Raises:
         InvalidInputError: there is no run, or it has its timesteps already.
     """
-    plan = folder.read_plan()
-    if timesteps is not None:
-        plan = RunPlan(plan.settings.model_copy(update={"timesteps": timesteps}), plan.seed, plan.versions)
-    done, total = folder.progress("checkpoints").timesteps, plan.settings.timesteps
-    if done >= total:
-        raise InvalidInputError(
-            f"{folder.path} has learned from {done} timesteps, of {total} asked for; ask for more with --timesteps"
-        )
+    folder.read_plan()  # so that nothing is written where no run is
     with folder.locked():
+        plan = folder.read_plan()
+        if timesteps is not None:
+            settings = plan.settings.model_copy(update={"timesteps": timesteps})
+            plan = RunPlan(settings, plan.seed, plan.versions)
+        done, total = folder.progress("checkpoints").timesteps, plan.settings.timesteps
+        if done >= total:
+            raise InvalidInputError(
+                f"{folder.path} has learned from {done} timesteps, of {total} asked for; ask for more with --timesteps"
+            )
         folder.write_plan(plan)
         return _train(folder, plan, console, watch)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import io
 import json
 import os
@@ -14,6 +15,24 @@ from pathlib import Path
 from typing import Any
 
 from dq_marine.errors import InvalidInputError
+
+NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""What systems say of a full disk, and of a user's or a process's share of it."""
+
+
+def unwritable(
+    path: Path, error: OSError, remedy: str = "give a folder that can be written"
+) -> InvalidInputError:
+    """Return what to raise where a path cannot be written.
+
+    Args:
+        path: of the file or folder.
+        error: what the system said.
+        remedy: unless the disk is full.
+    """
+    if error.errno in NO_SPACE:
+        remedy = "free some space on its disk, or write to another"
+    return InvalidInputError(f"{path} cannot be written: {error.strerror or error}; {remedy}")
 
 
 @contextmanager
@@ -32,10 +51,7 @@ def replacing_file(path: Path) -> Iterator[Path]:
         temporary.chmod(0o644)  # mkstemp's files are private; what is shared by name should be readable
         os.replace(temporary, path)
     except OSError as error:
-        raise InvalidInputError(
-            f"{path} cannot be written: {error.strerror or error}; "
-            "give a file in an existing folder that can be written"
-        ) from error
+        raise unwritable(path, error, "give a file in an existing folder that can be written") from error
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)
@@ -43,15 +59,23 @@ def replacing_file(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def new_folder(path: Path) -> Iterator[Path]:
-    """Yield a temporary folder that becomes `path`, which must not exist, once the block has ended well."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = Path(tempfile.mkdtemp(dir=path.parent, prefix=".incomplete-"))
+    """Yield a temporary folder that becomes `path`, which must not exist, once the block has ended well.
+
+    Raises:
+        InvalidInputError: the folder, or a file in it, cannot be written.
+    """
+    temporary: Path | None = None
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        temporary = Path(tempfile.mkdtemp(dir=path.parent, prefix=".incomplete-"))
         yield temporary
         temporary.chmod(0o755)
         os.rename(temporary, path)
+    except OSError as error:
+        raise unwritable(path, error) from error
     finally:
-        shutil.rmtree(temporary, ignore_errors=True)
+        if temporary is not None:
+            shutil.rmtree(temporary, ignore_errors=True)
 
 
 def with_folder(path: Path) -> Path:
@@ -63,9 +87,7 @@ def with_folder(path: Path) -> Path:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InvalidInputError(
-            f"{path} cannot be written: {error.strerror}; give a folder that can be written"
-        ) from error
+        raise unwritable(path, error) from error
     return path
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from io import TextIOWrapper
 from pathlib import Path
@@ -44,13 +45,21 @@ class FileLock:
             owner = self._file.read(20).strip()
             self._file.close()
             raise HeldLockError(owner) from error
-        self._file.truncate(0)
-        self._file.write(str(os.getpid()))
-        self._file.flush()
+        try:
+            self._file.truncate(0)
+            self._file.write(str(os.getpid()))
+            self._file.flush()
+        except OSError:  # a full disk
+            self._close()
+            raise
 
     def release(self) -> None:
         """Let others have it."""
-        self._file.close()
+        self._close()
+
+    def _close(self) -> None:
+        with contextlib.suppress(OSError):  # the number that could not be written the first time
+            self._file.close()
 
 
 def is_free(path: Path) -> bool:

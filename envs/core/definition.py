@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 LARGEST_WEIGHT = 1e6
-"""Of a term of the reward, either way: sums of such terms keep some digits of the small ones, in single precision, too."""
+"""Of a term of the reward: beside one this large, single precision keeps a term of 1 to a digit."""
 
 NARROWEST_WIDTH = 1e-6
 """Of a bell of the reward, in the unit of what it is over: nothing is told apart by less."""

@@ -80,7 +80,7 @@ def test_a_folder_is_there_whole_or_not_at_all(tmp_path: Path) -> None:
             (folder / "model").write_text("half")
             raise OSError("disk full")
 
-    with pytest.raises(OSError, match="disk full"):
+    with pytest.raises(InvalidInputError, match="cannot be written: disk full"):
         fail()
     assert not list((tmp_path / "best").iterdir())
     with new_folder(tmp_path / "best" / "1") as folder:

@@ -20,6 +20,11 @@ def plan() -> RunPlan:
     return RunPlan(read_settings("ppo", TrainingSettings), seed=3, versions={"torch": "2"})
 
 
+def begin(folder: RunFolder, plan: RunPlan, *, force: bool = False) -> None:
+    with folder.begun(plan, force=force):
+        pass
+
+
 def write_model(text: str):
     def write(folder: Path) -> None:
         (folder / "model.zip").write_text(text)
@@ -29,19 +34,19 @@ def write_model(text: str):
 
 def test_plan_comes_back(tmp_path: Path, plan: RunPlan) -> None:
     folder = RunFolder(tmp_path / "run")
-    folder.begin(plan, force=False)
+    begin(folder, plan)
     assert folder.read_plan() == plan
 
 
 def test_a_run_is_replaced_only_by_force(tmp_path: Path, plan: RunPlan) -> None:
     folder = RunFolder(tmp_path / "run")
-    folder.begin(plan, force=False)
+    begin(folder, plan)
     folder.save("best", Progress(10, 1.0), write_model("old"))
     (folder.path / "notes.txt").write_text("mine")
     with pytest.raises(InvalidInputError, match=r"holds a run already; continue it with --resume.*--force"):
-        folder.begin(plan, force=False)
+        begin(folder, plan)
     assert folder.latest("best") is not None
-    folder.begin(plan, force=True)
+    begin(folder, plan, force=True)
     assert folder.latest("best") is None
     assert (folder.path / "notes.txt").read_text() == "mine"
 
@@ -50,9 +55,9 @@ def test_a_run_is_replaced_only_by_force(tmp_path: Path, plan: RunPlan) -> None:
 def test_what_is_no_run_is_left_alone(tmp_path: Path, plan: RunPlan, force: bool) -> None:
     (tmp_path / "thesis.tex").write_text("years of work")
     with pytest.raises(InvalidInputError, match="is not a run"):
-        RunFolder(tmp_path).begin(plan, force=force)
+        begin(RunFolder(tmp_path), plan, force=force)
     with pytest.raises(InvalidInputError, match="is not a run"):
-        RunFolder(tmp_path / "thesis.tex").begin(plan, force=force)
+        begin(RunFolder(tmp_path / "thesis.tex"), plan, force=force)
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
 
 
@@ -98,14 +103,14 @@ def test_a_damaged_snapshot_gives_way_to_the_one_before(
 
 def test_two_trainings_keep_out_of_each_others_way(tmp_path: Path, plan: RunPlan) -> None:
     folder = RunFolder(tmp_path / "run")
-    folder.begin(plan, force=False)
+    begin(folder, plan)
     with folder.locked():
         with pytest.raises(InvalidInputError, match=f"by process {os.getpid()}"), folder.locked():
             pass
         with pytest.raises(InvalidInputError, match="is being trained"):
-            RunFolder(tmp_path / "run").begin(plan, force=True)
+            begin(RunFolder(tmp_path / "run"), plan, force=True)
         assert folder.holds_run
-    RunFolder(tmp_path / "run").begin(plan, force=True)
+    begin(RunFolder(tmp_path / "run"), plan, force=True)
 
 
 def test_a_snapshot_that_failed_leaves_the_one_before(tmp_path: Path) -> None:
@@ -116,7 +121,7 @@ def test_a_snapshot_that_failed_leaves_the_one_before(tmp_path: Path) -> None:
         write_model("half")(snapshot)
         raise OSError("disk full")
 
-    with pytest.raises(OSError, match="disk full"):
+    with pytest.raises(InvalidInputError, match="cannot be written: disk full"):
         folder.save("checkpoints", Progress(2, 0.0), fail)
     assert folder.progress("checkpoints").timesteps == 1
     assert len(list((tmp_path / "checkpoints").iterdir())) == 1
@@ -133,7 +138,7 @@ def test_damage_is_named(tmp_path: Path, plan: RunPlan) -> None:
     with pytest.raises(InvalidInputError, match=r"holds no run \(no run\.json\)"):
         RunFolder(tmp_path).read_plan()
     folder = RunFolder(tmp_path / "run")
-    folder.begin(plan, force=False)
+    begin(folder, plan)
     (folder.path / "run.json").write_text("{}")
     with pytest.raises(InvalidInputError, match=r"run\.json is damaged"):
         folder.read_plan()
