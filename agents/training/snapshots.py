@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from dq_marine.checks import finite_number, whole_number
+from dq_marine.checks import existing_file, finite_number, whole_number
+from dq_marine.errors import InvalidInputError
 from dq_marine.util.files import write_json
 
 PROGRESS_FILE = "progress.json"
@@ -73,5 +74,8 @@ def _digest(file: Path) -> str:
 
 
 def _content(folder: Path) -> dict[str, Any]:
-    content: dict[str, Any] = json.loads((folder / PROGRESS_FILE).read_text(encoding="utf-8"))
+    file = existing_file("progress", folder / PROGRESS_FILE)
+    if file is None:  # nothing, or a pipe, which would never end
+        raise InvalidInputError(f"{folder / PROGRESS_FILE} is missing; restore it from a copy")
+    content: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     return content

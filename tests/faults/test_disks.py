@@ -84,5 +84,6 @@ def test_a_run_on_a_read_only_disk_is_flown_but_not_resumed(tmp_path: Path) -> N
             flown = run("evaluate", "--run", folder / "run", "--episodes", "1")
             assert flown.exit_code == 0, flown.output
             assert_refused(
-                run("train", "--run", folder / "run", "--resume", "--timesteps", "128"), "Read-only file system"
+                run("train", "--run", folder / "run", "--resume", "--timesteps", "128"),
+                "Read-only file system",
             )

@@ -18,6 +18,8 @@ from hostile.acting import (
     env_target,
     vector_target,
 )
+from hostile.commands import drawn_command
+from hostile.folders import drawn_run_folder
 from hostile.making import (
     MADE,
     drawn_environment,
@@ -29,6 +31,7 @@ from hostile.making import (
     drawn_vehicle,
     drawn_vehicle_file,
 )
+from hostile.tables import drawn_force_file, drawn_radiation_file
 from hostile.values import Rng
 
 
@@ -53,6 +56,10 @@ DOORS: dict[str, Door] = {
     "sea": Door(drawn_sea),
     "vehicle": Door(drawn_vehicle),
     "vehicle file": Door(drawn_vehicle_file),
+    "force file": Door(drawn_force_file),
+    "radiation file": Door(drawn_radiation_file),
+    "run folder": Door(drawn_run_folder),
+    "command": Door(drawn_command),
     "body": Door(drawn_body_call, body_target),
     "batch": Door(drawn_batch_call, batch_target),
     "env": Door(drawn_env_call, env_target),

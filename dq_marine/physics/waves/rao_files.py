@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import os
-import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -44,10 +43,10 @@ def read_force_rao(path: str | os.PathLike[str]) -> ForceRAO:
         raise InvalidInputError(f"there is no file {shown(str(file))}")
     try:
         return readers[file.suffix](found)
-    except (OSError, KeyError, TypeError, ValueError, RecursionError, csv.Error, zipfile.BadZipFile) as error:
+    except Exception as error:  # a damaged archive fails with anything
         if isinstance(error, InvalidInputError):
             raise InvalidInputError(f"{file}: {error}") from error
-        raise InvalidInputError(f"{file} cannot be read: {type(error).__name__}: {error}") from error
+        raise InvalidInputError(f"{file} cannot be read: {shown(error)}; give a whole file") from error
 
 
 def _from_csv(file: Path) -> ForceRAO:

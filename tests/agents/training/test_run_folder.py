@@ -25,6 +25,12 @@ def begin(folder: RunFolder, plan: RunPlan, *, force: bool = False) -> None:
         pass
 
 
+def replace(file: Path, old: str, new: str) -> None:
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+
+
 def write_model(text: str):
     def write(folder: Path) -> None:
         (folder / "model.zip").write_text(text)
@@ -83,8 +89,27 @@ def test_the_latest_snapshot_stays(tmp_path: Path) -> None:
         lambda snapshot: (snapshot / "progress.json").write_text("{"),
         lambda snapshot: (snapshot / "progress.json").unlink(),
         lambda snapshot: (snapshot / "progress.json").write_text("[]"),
+        lambda snapshot: replace(snapshot / "progress.json", '"timesteps": ', '"timesteps": -'),
+        lambda snapshot: replace(snapshot / "progress.json", '"wall_time": 1.0', '"wall_time": "a day"'),
+        lambda snapshot: (snapshot / "progress.json").write_text("[" * 100_000),
+        lambda snapshot: ((snapshot / "progress.json").unlink(), os.mkfifo(snapshot / "progress.json")),
+        lambda snapshot: ((snapshot / "model.zip").unlink(), os.mkfifo(snapshot / "model.zip")),
+        lambda snapshot: ((snapshot / "model.zip").unlink(), (snapshot / "model.zip").mkdir()),
     ],
-    ids=["changed", "emptied", "removed", "half of progress", "no progress", "other progress"],
+    ids=[
+        "changed",
+        "emptied",
+        "removed",
+        "half of progress",
+        "no progress",
+        "other progress",
+        "less than no progress",
+        "a word for a number",
+        "deep progress",
+        "progress is a pipe",
+        "model is a pipe",
+        "model is a folder",
+    ],
 )
 def test_a_damaged_snapshot_gives_way_to_the_one_before(
     tmp_path: Path, damage: Callable[[Path], object]
@@ -139,6 +164,37 @@ def test_damage_is_named(tmp_path: Path, plan: RunPlan) -> None:
         RunFolder(tmp_path).read_plan()
     folder = RunFolder(tmp_path / "run")
     begin(folder, plan)
-    (folder.path / "run.json").write_text("{}")
-    with pytest.raises(InvalidInputError, match=r"run\.json is damaged"):
+    for damaged in (
+        "{}",
+        "",
+        "[" * 100_000,
+        '{"seed": 1.5, "settings": {}, "versions": {}}',
+        "\0",
+        "[]",
+        "3",
+    ):
+        (folder.path / "run.json").write_text(damaged)
+        with pytest.raises(InvalidInputError, match=r"run\.json is damaged.*restore it.*--force"):
+            folder.read_plan()
+    (folder.path / "run.json").unlink()
+    (folder.path / "run.json").mkdir()
+    with pytest.raises(InvalidInputError, match="holds no run"):
         folder.read_plan()
+
+
+def test_what_does_not_belong_to_a_snapshot_does_not_damage_it(tmp_path: Path) -> None:
+    """As file managers and network disks leave it behind; nor does a file beside the snapshots."""
+    folder = RunFolder(tmp_path)
+    folder.save("best", Progress(1, 0.0), write_model("good"))
+    (tmp_path / "best" / "000001" / ".DS_Store").write_text("view")
+    (tmp_path / "best" / "000009").write_text("no folder")
+    (tmp_path / "best" / "2 copy").mkdir()
+    assert folder.progress("best").timesteps == 1
+    folder.save("best", Progress(2, 0.0), write_model("better"))
+    assert folder.progress("best").timesteps == 2
+
+
+@pytest.mark.parametrize("path", ["~nosuchuser/run", "a\0b", "x" * 5000])
+def test_what_can_be_no_folder_is_named(path: str) -> None:
+    with pytest.raises(InvalidInputError, match=r"run = .* is no path of a file: .*; give another"):
+        RunFolder(path)

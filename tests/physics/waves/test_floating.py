@@ -291,6 +291,7 @@ def test_files_say_the_same(tmp_path):
         ("rao.json", "{", "cannot be read"),
         ("rao.txt", "", "is no"),
         ("rao.npz", "nothing", "cannot be read"),
+        ("rao.npz", "", "cannot be read.*whole file"),
     ],
 )
 def test_a_wrong_file_is_refused(tmp_path, name, text, message):
