@@ -22,6 +22,9 @@ from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
 
+LONGEST_FLIGHT = 1e6
+"""Simulated time [s]; all of it is kept in memory."""
+
 MOST_SEEDS = 1000
 """Tried for a start that is far from the goal."""
 
@@ -176,9 +179,10 @@ def _make(plan: FlightPlan, outputs: Outputs) -> gym.Env[Any, Any]:
     """Return the environment with the plan's time limit in place of its own."""
     mode = "human" if outputs.live else None
     inner = marine(make_environment(plan.environment, render_mode=mode, record=outputs.html is not None))
-    if not (math.isfinite(plan.seconds) and plan.seconds >= inner.control_period):
+    if not inner.control_period <= plan.seconds <= LONGEST_FLIGHT:
         raise InvalidInputError(
-            f"seconds = {plan.seconds:g}; give a time of at least one control period, {inner.control_period:g} s"
+            f"seconds = {plan.seconds:g}; give a time of at least one control period, {inner.control_period:g} s, and "
+            f"at most {LONGEST_FLIGHT:g} s"
         )
     return TimeLimit(inner, max_episode_steps=round(plan.seconds / inner.control_period))
 

@@ -40,10 +40,12 @@ def replacing_file(path: Path) -> Iterator[Path]:
     """Yield a temporary file beside `path` that takes its place once the block has ended well.
 
     Raises:
-        InvalidInputError: the folder does not exist, or the file cannot be written.
+        InvalidInputError: the folder does not exist, the file cannot be written, or something else than a file is there.
     """
     temporary: Path | None = None
     try:
+        if path.exists() and not (path.is_file() or path.is_dir()):  # of a device, the name would be taken away
+            raise InvalidInputError(f"{path} is a device or a pipe; give the name of a file")
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}.", suffix=path.suffix)
         os.close(handle)
         temporary = Path(name)

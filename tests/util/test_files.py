@@ -53,6 +53,14 @@ def test_a_folder_that_is_a_file_is_named(tmp_path: Path) -> None:
         with_folder(tmp_path / "file" / "page.html")
 
 
+def test_a_device_or_pipe_is_not_replaced(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(InvalidInputError, match=r"pipe is a device or a pipe; give the name of a file"):
+        write_whole(tmp_path / "pipe", "text")
+    assert stat.S_ISFIFO((tmp_path / "pipe").stat().st_mode)
+    assert [one.name for one in tmp_path.iterdir()] == ["pipe"]
+
+
 def test_a_missing_folder_is_not_made_unasked(tmp_path: Path) -> None:
     with pytest.raises(InvalidInputError, match=r"cannot be written: No such file.*existing folder"):
         write_json(tmp_path / "no" / "scores.json", {})
