@@ -40,11 +40,13 @@ def replacing_file(path: Path) -> Iterator[Path]:
     """Yield a temporary file beside `path` that takes its place once the block has ended well.
 
     Raises:
-        InvalidInputError: the folder does not exist, the file cannot be written, or something else than a file is there.
+        InvalidInputError: the folder does not exist, the file cannot be written, or a device or pipe is there.
     """
     temporary: Path | None = None
     try:
-        if path.exists() and not (path.is_file() or path.is_dir()):  # of a device, the name would be taken away
+        if path.exists() and not (
+            path.is_file() or path.is_dir()
+        ):  # of a device, the name would be taken away
             raise InvalidInputError(f"{path} is a device or a pipe; give the name of a file")
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}.", suffix=path.suffix)
         os.close(handle)

@@ -8,7 +8,6 @@ import secrets
 import selectors
 import subprocess
 import sys
-import time
 import weakref
 from collections.abc import Callable
 from pathlib import Path
@@ -104,13 +103,14 @@ class ServerProcess:
             raise ViewerError("the viewer is closed; open a new one")
         kind, path = message.kind.encode(), message.path.encode()
         self._socket.send_multipart([kind, path, message.packed()])
-        deadline = time.monotonic() + timeout
+        waited = 0.0  # not by a clock, which goes on while this process and the server's are stopped
         while not self._socket.poll(1000 * POLL_SECONDS):
             check()
             if self._process.poll() is not None:
                 self.close()
                 raise ViewerError("the viewer's server has ended; open a new viewer")
-            if time.monotonic() > deadline:
+            waited += POLL_SECONDS
+            if waited >= timeout:
                 self.close()
                 raise ViewerError(
                     f"no answer to {message.kind!r} within {timeout:g} s; the viewer is closed: "
