@@ -18,17 +18,27 @@ from typing import Any
 
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 
+from dq_marine.errors import InvalidInputError
 from dq_marine.util.announce import announce
 
 CACHE_DIRECTORY_VARIABLE = "DQ_MARINE_CACHE_DIR"
 
 
 def cache_directory() -> Path:
-    """Return the folder for compiled code: $DQ_MARINE_CACHE_DIR, else the user's cache folder."""
+    """Return the folder for compiled code: $DQ_MARINE_CACHE_DIR, else the user's cache folder.
+
+    Raises:
+        InvalidInputError: the variable is not set, and the user has no home.
+    """
     chosen = os.environ.get(CACHE_DIRECTORY_VARIABLE)
     if chosen:
         return Path(chosen)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "dq_marine"
+    try:
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "dq_marine"
+    except RuntimeError as error:
+        raise InvalidInputError(
+            f"there is no home to keep compiled code in; set {CACHE_DIRECTORY_VARIABLE} to a folder of yours"
+        ) from error
 
 
 def keep_on_disk(compiled: Any, function: Callable[..., Any], key: str, fingerprint: str) -> None:
@@ -40,7 +50,12 @@ def keep_on_disk(compiled: Any, function: Callable[..., Any], key: str, fingerpr
         key: tells the function from all others of the same sources.
         fingerprint: of the sources.
     """
-    if not _writable(cache_directory()):
+    try:
+        folder = cache_directory()
+    except InvalidInputError as error:
+        _announce_homeless(str(error))
+        return
+    if not _writable(folder):
         return
     try:
         compiled._cache = _CompositionCache(function, key, fingerprint)
@@ -134,6 +149,12 @@ def announce_compilation() -> None:
 def _announce_failure(what: str, reason: str) -> None:
     """Say, once for each reason, that compiled code could not be loaded or kept."""
     announce(f"compiled code cannot be {what} in {cache_directory()}: {reason}; compiling goes on")
+
+
+@functools.cache
+def _announce_homeless(reason: str) -> None:
+    """Say, once, that there is no folder to keep compiled code in."""
+    announce(reason)
 
 
 def _reason(error: Exception) -> str:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import sys
 from typing import Any
 
 import typer
@@ -25,8 +28,33 @@ class Commands(TyperGroup):
         try:
             return super().invoke(ctx)
         except DQMarineError as error:
-            error_console.print(Text.assemble(("Error: ", "bold red"), str(error)), soft_wrap=True)
+            _say(str(error))
             raise typer.Exit(1) from error
+        except ConnectionError:  # nobody reads any more, as after `| head`: click ends the command
+            raise
+        except OSError as error:
+            _drop_what_is_unwritten()
+            what = "the output" if error.filename is None else error.filename
+            _say(
+                f"{what} cannot be read or written: {error.strerror or error}; mend that, and run the command again"
+            )
+            raise typer.Exit(1) from error
+        except MemoryError as error:
+            _say("there is not enough memory for this; ask for less, such as fewer environments")
+            raise typer.Exit(1) from error
+
+
+def _say(message: str) -> None:
+    with contextlib.suppress(OSError):  # standard error may be gone, too
+        error_console.print(Text.assemble(("Error: ", "bold red"), message), soft_wrap=True)
+
+
+def _drop_what_is_unwritten() -> None:
+    """Let standard output, which could not be written, lead nowhere, so that Python does not try again at its end."""
+    if sys.stdout is not sys.__stdout__ or sys.stdout is None:
+        return
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def examples(*lines: str) -> str:

@@ -29,7 +29,7 @@ CHROMIUM_NAMES = (
 )
 """Names of programs, in the order in which they are looked for."""
 
-APPLICATION_FOLDERS = (Path("/Applications"), Path.home() / "Applications")
+APPLICATION_FOLDERS = (Path("/Applications"), Path(os.path.expanduser("~/Applications")))
 APPLICATIONS = ("Google Chrome.app/Contents/MacOS/Google Chrome", "Chromium.app/Contents/MacOS/Chromium")
 """Where macOS has them."""
 
