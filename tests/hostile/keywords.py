@@ -20,6 +20,10 @@ def vector3(rng: Rng) -> Any:
     return rng.normal(size=3).tolist()
 
 
+def goal(rng: Rng) -> Any:
+    return [float(rng.normal()), float(rng.normal()), float(rng.uniform(1.0, 9.0))]
+
+
 def quaternion(rng: Rng) -> Any:
     q = rng.normal(size=4)
     return q / np.linalg.norm(q)
@@ -69,7 +73,8 @@ ENVIRONMENT: dict[str, Callable[[Rng], Any]] = {
     "vehicle_seed": one_of(0, 1),
     "start_radius": number(0.1, 2.0),
     "workspace_radius": number(5.0, 20.0),
-    "reward": constant({"effort": 0.1}),
+    "reward": constant({"effort": 0.1, "position": 0.5, "position_width": 1.0}),
+    "goal_position": goal,
     "actuated_axes": one_of(None, "surge sway heave yaw"),
 }
 
@@ -78,6 +83,6 @@ OPTIONS: dict[str, Callable[[Rng], Any]] = {
     "quaternion": quaternion,
     "velocity": vector6,
     "current": vector3,
-    "goal_position": vector3,
+    "goal_position": goal,
     "goal_quaternion": quaternion,
 }

@@ -91,9 +91,18 @@ MADE: dict[str, tuple[Callable[..., Any], dict[str, Callable[[Rng], Any]]]] = {
     "spheroid": (dq_marine.spheroid, {"a": number(0.2, 5.0), "b": number(0.2, 2.0)}),
     "DVL": (dq_marine.DVL, {"seabed": number(10.0, 100.0), "reach": number(10.0, 100.0)}),
     "GNSS": (dq_marine.GNSS, {"surface": number(0.1, 1.0)}),
+    "batch_of": (
+        dq_marine.batch_of,
+        {"scenes": lambda rng: [plain_scene()] * 2, "size": one_of(None, 2), "threads": one_of(None, 1)},
+    ),
     "load_vehicle": (load_vehicle, {"vehicle": one_of("otter", "remus100")}),
     "Randomisation.load": (dq_marine.Randomisation.load, {"randomisation": one_of("default", "published")}),
 }  # fmt: skip
+
+
+@functools.cache
+def plain_scene() -> dq_marine.Scene:
+    return dq_marine.Scene("bluerov2_heavy")
 
 
 def drawn_making(rng: Rng, name: str) -> Callable[[], Any]:
