@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support.bodies import make_body, random_damping, random_inertia, random_quaternion
+from support.bodies import make_body, random_inertia
 from support.sweeps import sweep
+from support.wild import body_of, wild
 
 from dq_marine.errors import StepNotSolvableError
 from dq_marine.integrator.drift_report import LARGEST_ENERGY_CHANGE
@@ -19,15 +20,7 @@ STEPS = 20
 
 
 def wild_body(rng, damped=False):
-    """A body with any M and damping, on its way at up to 50 m/s and 1,000 rad/s, with a step of 0.1 ms to 1 s."""
-    mass_matrix = 10.0 ** rng.uniform(-3.0, 9.0) * random_inertia(rng, 10.0 ** rng.uniform(0.0, 8.0))
-    linear = 10.0 ** rng.uniform(-6.0, 6.0) * random_damping(rng) if damped else None
-    body = make_body(mass_matrix, 10.0 ** rng.uniform(-4.0, 0.0), linear=linear)
-    direction, axis = rng.normal(size=(2, 3))
-    speed, spin = 10.0 ** rng.uniform(-3.0, np.log10(50.0)), 10.0 ** rng.uniform(-3.0, 3.0)
-    velocity = (*(speed * direction / np.linalg.norm(direction)), *(spin * axis / np.linalg.norm(axis)))
-    body.reset(rng.normal(size=3), random_quaternion(rng), velocity)
-    return body
+    return body_of(wild(rng, damped))
 
 
 def energies(body, steps):
@@ -58,18 +51,22 @@ def worst_gain(energy):
     return relative_changes(energy).max(initial=0.0)
 
 
-@pytest.mark.parametrize("bodies", sweep([200, 10_000], plain=[200]))
-def test_wild_free_bodies_keep_energy_and_momentum(bodies):
-    worst, longest = 0.0, 0.0
+@pytest.mark.parametrize(("bodies", "steps"), sweep([(200, STEPS), (10_000, 100)], plain=[(200, STEPS)]))
+def test_wild_free_bodies_keep_energy_and_momentum(bodies, steps):
+    worst, longest, refused = 0.0, 0.0, 0
     for seed in range(bodies):
         body = wild_body(np.random.default_rng(seed))
         momentum = np.linalg.norm(body.spatial_momentum[:3])
-        energy = energies(body, STEPS)
+        energy = energies(body, steps)
+        refused += len(energy) <= steps
         worst = max(worst, worst_change(energy))
         longest = max(longest, np.abs(energy / energy[0] - 1.0).max())
         assert abs(np.linalg.norm(body.spatial_momentum[:3]) - momentum) < 1e-11 * momentum, seed
     assert 0.0 < worst < LARGEST_ENERGY_CHANGE + ROUND_OFF
-    assert longest < 0.15  # what a run comes to: steps in turn gain and lose, as a symplectic method's do
+    assert longest < 0.11  # what a run comes to: steps in turn gain and lose, as a symplectic method's do
+    assert (
+        refused < 0.25 * bodies
+    )  # which meet a step that no number of pieces takes through, sooner or later
 
 
 @pytest.mark.parametrize("bodies", sweep([100, 10_000], plain=[100]))
