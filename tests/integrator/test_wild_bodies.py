@@ -26,7 +26,7 @@ def quickest(drawn):
 )
 @pytest.mark.parametrize("seeds", sweep([range(20), range(20, 500)], plain=[range(20)]))
 def test_wild_bodies_move_as_separately_written_equations_say(seeds, order, share, damped):
-    """In small steps, after which what remains is rounding, which grows with the condition of M."""
+    """In small steps: what remains is rounding and the solver's residual, times the condition of M."""
     for seed in seeds:
         drawn = wild(np.random.default_rng(seed), damped)
         step = share / quickest(drawn)
@@ -35,7 +35,7 @@ def test_wild_bodies_move_as_separately_written_equations_say(seeds, order, shar
         start = (drawn.position, drawn.quaternion, drawn.velocity)
         reference = solve(drawn.mass_matrix, *start, STEPS * step, linear=drawn.linear)
         moved, turned, changed = errors(body, reference)
-        tolerance = 1e-8 + 1e-13 * np.linalg.cond(drawn.mass_matrix)
+        tolerance = 1e-8 + 3e-12 * np.linalg.cond(drawn.mass_matrix)
         speed = np.linalg.norm(drawn.velocity)
         assert changed < tolerance * speed, seed
         assert turned < tolerance, seed
