@@ -52,9 +52,10 @@ def test_a_training_whose_disk_became_full_keeps_its_checkpoints(tmp_path: Path)
     assert resume_training(folder, timesteps=256, console=console).timesteps == 256
 
 
-@pytest.mark.parametrize(
-    ("option", "name"), [("--html", "replay.html"), ("--plot", "p.png"), ("--trajectory", "t.csv")]
-)
+FILES = [("--html", "replay.html"), ("--plot", "p.png"), ("--trajectory", "t.csv")]
+
+
+@pytest.mark.parametrize(("option", "name"), sweep(FILES, plain=FILES[:1]))
 def test_a_flight_on_a_full_disk_says_so(little_space: Path, option: str, name: str) -> None:
     file = little_space / name
     file.write_text("what was there before")

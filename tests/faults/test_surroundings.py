@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
+from support.sweeps import sweep
 from support.trainings import tiny
 
 from dq_marine.agents.training.run_folder import RunFolder
@@ -26,7 +27,7 @@ def ended(command: Sequence[str], **keywords: object) -> subprocess.CompletedPro
     return subprocess.run(command, stderr=subprocess.PIPE, text=True, timeout=600.0, check=False, **keywords)
 
 
-@pytest.mark.parametrize("command", [VEHICLES, SHEET], ids=["table", "JSON"])
+@pytest.mark.parametrize("command", sweep([VEHICLES, SHEET], plain=[SHEET]))
 def test_a_reader_that_has_gone_is_no_mistake(command: list[str]) -> None:
     """As after `| head`: nothing is said."""
     reader, writer = os.pipe()
@@ -39,9 +40,9 @@ def test_a_reader_that_has_gone_is_no_mistake(command: list[str]) -> None:
     assert result.returncode == 1
 
 
-@pytest.mark.parametrize("closed", [(1,), (0, 1), (0, 1, 2)])
-def test_a_command_runs_without_its_standard_files(closed: tuple[int, ...], tmp_path: Path) -> None:
-    script = f'exec {" ".join(f"{one}>&-" for one in closed)}; exec "$@"'
+@pytest.mark.parametrize("closed", sweep([1, 2, 3], plain=[2]))
+def test_a_command_runs_without_its_first_standard_files(closed: int, tmp_path: Path) -> None:
+    script = f'exec {" ".join(f"{one}>&-" for one in range(closed))}; exec "$@"'
     file = tmp_path / "mine.toml"
     command = [*VEHICLES, "export", "otter", str(file)]
     assert ended(["sh", "-c", script, "sh", *command]).returncode == 0

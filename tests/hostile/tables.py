@@ -69,7 +69,7 @@ def drawn_force_file(rng: Rng) -> Callable[[], Any]:
         finally:
             file.unlink()
             folder.rmdir()
-        sea = dq_marine.Sea(dq_marine.Jonswap(1.0, 7.0), seed=1)
+        sea = dq_marine.Sea(dq_marine.Jonswap(1.0, 7.0), components=5, seed=1)
         return dq_marine.Scene("osv83", weather=[dq_marine.WaveLoads(sea, rao)])
 
     return load
@@ -91,7 +91,7 @@ def drawn_radiation_file(rng: Rng) -> Callable[[], Any]:
             for file in folder.iterdir():
                 file.unlink()
             folder.rmdir()
-        sea = dq_marine.Sea(dq_marine.Jonswap(1.0, 7.0), seed=1)
+        sea = dq_marine.Sea(dq_marine.Jonswap(1.0, 7.0), components=5, seed=1)
         return dq_marine.Scene(vessel, weather=[dq_marine.WaveLoads(sea)])
 
     return load

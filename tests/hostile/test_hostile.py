@@ -6,13 +6,13 @@ from support.sweeps import sweep
 from hostile.cases import judged
 from hostile.doors import DOORS
 
-MAKING = ("environment", "vector environment")
-"""Doors whose cases take long: an environment is composed anew for each."""
+LONG = ("environment", "vector environment", "radiation file", "run folder", "command")
+"""Doors whose cases take long: something is composed, read or trained anew for each."""
 
 
 @pytest.mark.parametrize("door", DOORS)
 def test_hostile_cases_are_refused_or_harmless(door):
-    for seed in range(10 if door in MAKING else 40):
+    for seed in range(8 if door in LONG else 40):
         verdict = judged(seed, door)
         assert verdict.outcome in ("refused", "accepted"), (seed, verdict)
 
