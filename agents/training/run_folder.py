@@ -25,7 +25,7 @@ from typing import Any, Literal
 from dq_marine.agents.preset_files import validate_settings
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.snapshots import Progress, is_whole, read_progress, write_progress
-from dq_marine.checks import possible_path, shown, whole_number
+from dq_marine.checks import existing_file, possible_path, shown, whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.files import new_folder, unwritable, write_json
 from dq_marine.util.locks import FileLock, HeldLockError
@@ -198,6 +198,16 @@ class RunFolder:
     def write_summary(self, content: dict[str, Any]) -> None:
         """Write `summary.json`."""
         write_json(self._summary_file, content)
+
+    def is_summed_up(self, timesteps: int) -> bool:
+        """Whether `summary.json` is there, and of a run that ended after so many timesteps."""
+        try:
+            file = existing_file("summary", self._summary_file)  # a pipe would never end
+            return file is not None and bool(
+                json.loads(file.read_text(encoding="utf-8"))["timesteps"] == timesteps
+            )
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+            return False
 
     def _snapshots(self, kind: Kind) -> list[Path]:
         return [one for one in (self.path / kind).glob("[0-9]*") if one.name.isdecimal() and one.is_dir()]

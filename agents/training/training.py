@@ -116,7 +116,7 @@ def resume_training(
             settings = plan.settings.model_copy(update={"timesteps": timesteps})
             plan = RunPlan(settings, plan.seed, plan.versions)
         done, total = folder.progress("checkpoints").timesteps, plan.settings.timesteps
-        if done >= total:
+        if done >= total and folder.is_summed_up(done):  # else it was killed before it could say how it ended
             raise InvalidInputError(
                 f"{folder.path} has learned from {done} timesteps, of {total} asked for; ask for more with --timesteps"
             )

@@ -70,7 +70,7 @@ print(json.dumps(ends))
 
 @pytest.mark.sweep  # one that is killed once is in tests/agents/training/test_training.py
 def test_a_training_killed_three_times_at_any_moment_becomes_whole(tmp_path: Path) -> None:
-    first, count = 0, 20
+    first, count = 0, 6
     arguments = [str(tmp_path), str(preset(tmp_path, "ppo", 256)), str(first), str(count)]
     ended = subprocess.run(
         [sys.executable, "-c", KILLS, *arguments], capture_output=True, text=True, timeout=1800.0, check=False

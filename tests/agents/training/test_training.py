@@ -134,6 +134,22 @@ def test_a_finished_run_is_extended(tmp_path: Path, console: Console) -> None:
     assert after >= best
 
 
+@pytest.mark.parametrize("left", ["", "{}", None])
+def test_a_run_killed_after_its_last_checkpoint_says_how_it_ended(
+    tmp_path: Path, left: str | None, console: Console
+) -> None:
+    folder = RunFolder(tmp_path / "run")
+    begin_training(folder, tiny(tmp_path, "ppo", 64), console=console)
+    summary = folder.path / "summary.json"
+    summary.unlink()
+    if left is not None:
+        summary.write_text(left)
+    assert resume_training(folder, console=console).timesteps == 64
+    assert json.loads(summary.read_text())["timesteps"] == 64
+    with pytest.raises(InvalidInputError, match="learned from 64 timesteps"):
+        resume_training(folder, console=console)
+
+
 def test_a_run_without_checkpoint_starts_again(tmp_path: Path, console: Console) -> None:
     folder = RunFolder(tmp_path / "run")
     begin_training(folder, tiny(tmp_path, "ppo", 64), console=console)
