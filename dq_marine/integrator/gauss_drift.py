@@ -1,0 +1,136 @@
+"""Free motion by Gauss's collocation on the momentum: a drift of order 8, over one step or over four at once.
+
+The momentum at the stages comes from `gauss_stages`, the pose from the series of the twist that goes with it. The pose is
+then made consistent with the momentum (G6), and the momentum that is handed on is the old one, carried by the pose: the
+spatial momentum is exact to round-off, energy and Casimirs to the tolerance of the sweeps. The method is symmetric
+in the momentum. It is not variational: no discrete action stands behind it, and the symplectic form is kept only to the
+order of the method.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+from dq_marine.algebra.dual_quaternion import (
+    DualQuaternion,
+    dual_multiply,
+    pose_position,
+    pose_renormalise,
+)
+from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_add, spatial_scale
+from dq_marine.algebra.stages import each_stage, stages_apart, stages_together
+from dq_marine.integrator.collocation import gauss
+from dq_marine.integrator.drift import Drift, transport_momentum
+from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept
+from dq_marine.integrator.gauss_stages import make_sweep_stages
+from dq_marine.integrator.increment import (
+    Increment,
+    Twists,
+    as_pose,
+    consistent,
+    increment_of,
+    joined,
+)
+from dq_marine.integrator.inertia import Inertia
+
+FOUR = (1.0, 1.0, 1.0, 1.0)
+"""The steps of a batch, side by side as stages are."""
+
+
+def squared_length(inertia: Inertia) -> float:
+    """Return tr M11 / tr M22 [m^2]: the square of the arm by which linear and angular momentum compare."""
+    angular, linear = inertia.matrix.angular, inertia.matrix.linear
+    return (angular[0] + angular[4] + angular[8]) / (linear[0] + linear[4] + linear[8])
+
+
+def fitted(length: float, twists: Twists, before: Spatial, after: Spatial) -> Increment:
+    """Return the motion of a step, consistent with the momentum before and after it."""
+    return consistent(length, increment_of(twists), before, after)
+
+
+def moved_by(
+    inertia: Inertia,
+    h: float,
+    increment: Increment,
+    pose: DualQuaternion,
+    momentum: Spatial,
+    solver: SolverReport,
+) -> tuple[DualQuaternion, Spatial, DriftReport]:
+    """Return pose and momentum after a motion, and a drift's report."""
+    step = as_pose(increment)
+    after = pose_renormalise(dual_multiply(pose, step))
+    carried = transport_momentum(pose.real, after.real, pose_position(step), momentum)
+    kept = is_energy_kept(quadratic_form(inertia.inverse, momentum), quadratic_form(inertia.inverse, carried))
+    return after, carried, DriftReport(solver, kept)
+
+
+@functools.cache
+def make_gauss_drift(stages: int) -> Drift:
+    """Return (inertia, h, pose, momentum) -> (pose, momentum, report): one step of free motion."""
+    sweep_stages = make_sweep_stages(gauss(stages))
+
+    def gauss_drift(
+        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        length_squared = squared_length(inertia)
+        length = math.sqrt(length_squared)
+        before = spatial_scale(h, momentum)
+        stages = sweep_stages(inertia, length_squared, before)
+        t = stages.twists
+        after = spatial_add(before, stages.change)
+        increment = fitted(length, Twists(t[0], t[1], t[2], t[3]), before, after)
+        increment = consistent(length, increment, before, after)
+        return moved_by(inertia, h, increment, pose, momentum, stages.report)
+
+    return gauss_drift
+
+
+@functools.cache
+def make_gauss_four(stages: int) -> Drift:
+    """Return (inertia, h, pose, momentum) -> (pose, momentum, report): four steps of free motion.
+
+    The momentum of four steps is found one after the other, then their motions side by side.
+    """
+    sweep_stages = make_sweep_stages(gauss(stages))
+
+    def gauss_four(
+        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        length_squared = squared_length(inertia)
+        length = math.sqrt(length_squared)
+        c0 = spatial_scale(h, momentum)
+        first = sweep_stages(inertia, length_squared, c0)
+        c1 = spatial_add(c0, first.change)
+        second = sweep_stages(inertia, length_squared, c1)
+        c2 = spatial_add(c1, second.change)
+        third = sweep_stages(inertia, length_squared, c2)
+        c3 = spatial_add(c2, third.change)
+        fourth = sweep_stages(inertia, length_squared, c3)
+        c4 = spatial_add(c3, fourth.change)
+        p, q, r, s = first.twists, second.twists, third.twists, fourth.twists
+        twists = stages_together(
+            (
+                Twists(p[0], p[1], p[2], p[3]),
+                Twists(q[0], q[1], q[2], q[3]),
+                Twists(r[0], r[1], r[2], r[3]),
+                Twists(s[0], s[1], s[2], s[3]),
+            )
+        )
+        before, after = stages_together((c0, c1, c2, c3)), stages_together((c1, c2, c3, c4))
+        parts = stages_apart(FOUR, each_stage(FOUR, fitted, (length, twists, before, after)))
+        increment = joined(joined(parts[0], parts[1]), joined(parts[2], parts[3]))
+        increment = consistent(length, increment, c0, c4)
+        report = worst(worst(first.report, second.report), worst(third.report, fourth.report))
+        return moved_by(inertia, h, increment, pose, momentum, report)
+
+    return gauss_four
+
+
+def worst(first: SolverReport, second: SolverReport) -> SolverReport:
+    """Return the report on two solutions."""
+    return SolverReport(
+        max(first.relative_residual_squared, second.relative_residual_squared),
+        first.on_rest_branch & second.on_rest_branch,
+        first.iterations + second.iterations,
+    )
