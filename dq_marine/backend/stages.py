@@ -39,6 +39,13 @@ def of_one_stage(kind: types.Type) -> types.Type:
     return kind.of_one_stage() if kind.width > kind.stages else kind.dtype
 
 
+def has_stages(kind: types.Type) -> bool:
+    """Whether nested tuples have a number that differs between stages."""
+    if isinstance(kind, types.BaseTuple):
+        return any(has_stages(part) for part in kind.types)
+    return isinstance(kind, Lanes) and kind.stages > 1
+
+
 def mapped(kind: types.Type, change: Callable[[types.Type], types.Type]) -> types.Type:
     """Return the type of nested tuples with every number's type changed."""
     if isinstance(kind, types.BaseTuple):
@@ -302,10 +309,13 @@ def _each_stage(weights: Any, function: Any, arguments: Any) -> Any:
     if find_lanes(arguments) is None:
         return lambda weights, function, arguments: widen_all(weights, function(*arguments), 0.0)
 
+    def call_once(weights: Any, function: Any, arguments: Any) -> Any:
+        return widen_all(weights, function(*arguments), first_lanes(arguments))
+
     def call(weights: Any, function: Any, arguments: Any) -> Any:
         return widen_all(weights, function(*widen(weights, arguments)), first_lanes(arguments))
 
-    return call
+    return call if has_stages(arguments) else call_once
 
 
 @intrinsic

@@ -23,7 +23,7 @@ from dq_marine.algebra.stages import each_stage, stages_apart, stages_together
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift import Drift, transport_momentum
 from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept
-from dq_marine.integrator.gauss_stages import make_sweep_stages
+from dq_marine.integrator.gauss_stages import FreeBody, make_sweep_stages, squared_length
 from dq_marine.integrator.increment import (
     Increment,
     Twists,
@@ -36,12 +36,6 @@ from dq_marine.integrator.inertia import Inertia
 
 FOUR = (1.0, 1.0, 1.0, 1.0)
 """The steps of a batch, side by side as stages are."""
-
-
-def squared_length(inertia: Inertia) -> float:
-    """Return tr M11 / tr M22 [m^2]: the square of the arm by which linear and angular momentum compare."""
-    angular, linear = inertia.matrix.angular, inertia.matrix.linear
-    return (angular[0] + angular[4] + angular[8]) / (linear[0] + linear[4] + linear[8])
 
 
 def fitted(length: float, twists: Twists, before: Spatial, after: Spatial) -> Increment:
@@ -73,10 +67,10 @@ def make_gauss_drift(stages: int) -> Drift:
     def gauss_drift(
         inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
     ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        length_squared = squared_length(inertia)
-        length = math.sqrt(length_squared)
+        body = FreeBody(inertia, squared_length(inertia))
+        length = math.sqrt(body.length_squared)
         before = spatial_scale(h, momentum)
-        stages = sweep_stages(inertia, length_squared, before)
+        stages = sweep_stages(body, before)
         t = stages.twists
         after = spatial_add(before, stages.change)
         increment = fitted(length, Twists(t[0], t[1], t[2], t[3]), before, after)
@@ -97,16 +91,16 @@ def make_gauss_four(stages: int) -> Drift:
     def gauss_four(
         inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
     ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        length_squared = squared_length(inertia)
-        length = math.sqrt(length_squared)
+        body = FreeBody(inertia, squared_length(inertia))
+        length = math.sqrt(body.length_squared)
         c0 = spatial_scale(h, momentum)
-        first = sweep_stages(inertia, length_squared, c0)
+        first = sweep_stages(body, c0)
         c1 = spatial_add(c0, first.change)
-        second = sweep_stages(inertia, length_squared, c1)
+        second = sweep_stages(body, c1)
         c2 = spatial_add(c1, second.change)
-        third = sweep_stages(inertia, length_squared, c2)
+        third = sweep_stages(body, c2)
         c3 = spatial_add(c2, third.change)
-        fourth = sweep_stages(inertia, length_squared, c3)
+        fourth = sweep_stages(body, c3)
         c4 = spatial_add(c3, fourth.change)
         p, q, r, s = first.twists, second.twists, third.twists, fourth.twists
         twists = stages_together(

@@ -1,0 +1,224 @@
+"""One step of a body with forces, by Gauss's collocation on momentum, attitude and position.
+
+With c = h mu, W = M^-1 and the forces F at the stages (docs/theory.md, eqs. G1, G3 and G7-G9)
+
+    K_i = ad*_(W y_i) y_i + h^2 F(p_i, chi_i, t_i)                                                   (G7)
+    q_i = q + sum_j A_ij q_j (0, omega_j)/2,   x_i = x + sum_j A_ij q_j v_j q_j*,   [omega; v] = W y (G8)
+    J = sum_i b_i [R_i m_i + (x_i - x) x R_i f_i; R_i f_i],   [m; f] = h^2 F                         (G9)
+
+J is what the forces add to the spatial momentum. The pose is made consistent with both: the old spatial momentum and J
+are what the new pose carries to the new body momentum c'. What a force leaves alone, such as the momentum about
+the vertical under weight and buoyancy, is therefore exact to round-off.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+from dq_marine.algebra.dual_quaternion import (
+    DualQuaternion,
+    dual_multiply,
+    pose_from_parts,
+    pose_position,
+    pose_renormalise,
+)
+from dq_marine.algebra.frames import momentum_bracket
+from dq_marine.algebra.quaternion import (
+    Quaternion,
+    quaternion_add,
+    quaternion_conjugate,
+    quaternion_dot,
+    quaternion_multiply,
+    quaternion_scale,
+    rotate,
+    rotate_inverse,
+)
+from dq_marine.algebra.selection import smallest_normal, spread
+from dq_marine.algebra.spatial import (
+    Spatial,
+    spatial_add,
+    spatial_add_scaled,
+    spatial_scale,
+    spatial_subtract,
+)
+from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum
+from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale
+from dq_marine.integrator.collocation import Collocation
+from dq_marine.integrator.drift import transport_momentum
+from dq_marine.integrator.drift_report import DriftReport
+from dq_marine.integrator.forces import join_pose_forces, join_velocity_forces
+from dq_marine.integrator.gauss_stages import squared_length, weighted_square
+from dq_marine.integrator.increment import Increment, as_pose, consistent, turned
+from dq_marine.integrator.inertia import twist_from_momentum
+from dq_marine.integrator.step import Composition, StepParameters
+from dq_marine.integrator.sweeps import make_sweeps
+
+
+class Place(NamedTuple):
+    """What is integrated: c = h mu, the attitude, and the way since the step's start in world axes [m]."""
+
+    momentum: Spatial
+    attitude: Quaternion
+    way: Vector3
+
+
+class ForcedStage(NamedTuple):
+    """One evaluation of (G7) and of the rates in (G8): these, and h^2 F."""
+
+    rate: Place
+    wrench: Spatial
+
+
+class Surroundings(NamedTuple):
+    """What the rates depend on besides where the body is.
+
+    Attributes:
+        parameters: of the step.
+        length_squared: see `gauss_stages.squared_length`.
+        size: the square of the momentum that changes are compared with.
+        h: step size [s].
+        position: at the step's start [m].
+        wrench: constant, body frame.
+        time: of the stage [s].
+        elapsed: since the step's start [s].
+    """
+
+    parameters: StepParameters
+    length_squared: float
+    size: float
+    h: float
+    position: Vector3
+    wrench: Spatial
+    time: float
+    elapsed: float
+
+
+ForcedStep: TypeAlias = Callable[
+    [StepParameters, float, float, DualQuaternion, Spatial, Spatial],
+    tuple[DualQuaternion, Spatial, DriftReport],
+]
+
+
+def moved_place(place: Place, s: float, rate: Place) -> Place:
+    """Return place + s rate."""
+    return Place(
+        spatial_add_scaled(place.momentum, s, rate.momentum),
+        quaternion_add(place.attitude, quaternion_scale(s, rate.attitude)),
+        add_scaled(place.way, s, rate.way),
+    )
+
+
+def place_distance(around: Surroundings, a: Place, b: Place) -> float:
+    """Return the square of the distance of two rates; ways follow from the rest, or show in the forces."""
+    difference = quaternion_add(a.attitude, quaternion_scale(-1.0, b.attitude))
+    turning = around.size * quaternion_dot(difference, difference)
+    return weighted_square(around.length_squared, spatial_subtract(a.momentum, b.momentum)) + turning
+
+
+def turned_to_world(q: Quaternion, a: Vector3) -> Vector3:
+    """Return R a, R the rotation of a q of any length near 1: stages keep the length only to their own order."""
+    axis = (q[1], q[2], q[3])
+    turn = add(scale(q[0], cross(axis, a)), cross(axis, cross(axis, a)))
+    return add_scaled(a, 2.0 / quaternion_dot(q, q), turn)
+
+
+def impulse(place: Place, wrench: Spatial) -> Spatial:
+    """Return a wrench in world axes, about the step's start (G9)."""
+    force = turned_to_world(place.attitude, wrench.linear)
+    return Spatial(add(turned_to_world(place.attitude, wrench.angular), cross(place.way, force)), force)
+
+
+def make_forces(composition: Composition) -> Callable[[Surroundings, Place, Spatial], Spatial]:
+    """Return (surroundings, place, h times the twist) -> all forces on the body."""
+    add_pose_forces = join_pose_forces(composition.pose_forces)
+    add_velocity_forces = join_velocity_forces(composition.velocity_forces)
+    arrive = composition.water.arrive
+
+    def forces_at(around: Surroundings, place: Place, twist: Spatial) -> Spatial:
+        parameters, time = around.parameters, around.time
+        pose = pose_from_parts(place.attitude, add(around.position, place.way))
+        start = place.momentum
+        pose = arrive(parameters.water, parameters.inertia, time, around.elapsed, pose, start).pose
+        posed = add_pose_forces(parameters.forces[0], pose, time, around.wrench)
+        chi = spatial_scale(1.0 / around.h, twist)
+        return add_velocity_forces(parameters.forces[1], pose, chi, time, posed)
+
+    return forces_at
+
+
+def make_forced_step(composition: Composition, method: Collocation) -> ForcedStep:
+    """Return (parameters, time, h, pose, momentum, wrench) -> (pose, momentum, report): one step of order 2s."""
+    forces_at = make_forces(composition)
+    arrive = composition.water.arrive
+    matrix, weights, nodes = method.matrix, method.weights, method.nodes
+
+    def evaluate(around: Surroundings, place: Place) -> ForcedStage:
+        twist = twist_from_momentum(around.parameters.inertia, place.momentum)
+        wrench = spatial_scale(around.h * around.h, forces_at(around, place, twist))
+        rate = Place(
+            spatial_add(momentum_bracket(twist, place.momentum), wrench),  # (G7)
+            turned(place.attitude, scale(0.5, twist.angular)),  # (G8)
+            rotate(place.attitude, twist.linear),
+        )
+        return ForcedStage(rate, wrench)
+
+    sweeps = make_sweeps(method, evaluate, moved_place, place_distance)
+
+    def follow(start: Place, change: Place) -> Place:
+        return moved_place(start, 1.0, change)
+
+    def forced_step(
+        parameters: StepParameters,
+        time: float,
+        h: float,
+        pose: DualQuaternion,
+        momentum: Spatial,
+        wrench: Spatial,
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        inertia = parameters.inertia
+        like = momentum.linear[0]
+        length_squared = squared_length(inertia)
+        start = Place(spatial_scale(h, momentum), pose.real, spread((0.0, 0.0, 0.0), like))
+        position = pose_position(pose)
+        at_start = Surroundings(parameters, length_squared, like, h, position, wrench, time, 0.0)
+        push = evaluate(at_start, start).wrench
+        size = weighted_square(length_squared, start.momentum) + weighted_square(length_squared, push)
+        size = size + smallest_normal(like)
+        elapsed = each_stage(nodes, multiplied, (h, stage_constants(nodes, like)))
+        times = each_stage(nodes, added, (time, elapsed))
+        around = Surroundings(parameters, length_squared, size, h, position, wrench, times, elapsed)
+        found, report = sweeps(around, start, size)
+        places = each_stage(weights, follow, (start, stage_product(matrix, found.rate)))
+        end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
+        given = stage_sum(weights, each_stage(weights, impulse, (places, found.wrench)))  # (G9)
+        in_body = Spatial(
+            rotate_inverse(pose.real, given.angular), rotate_inverse(pose.real, given.linear)
+        )
+        increment = Increment(
+            quaternion_multiply(quaternion_conjugate(pose.real), end.attitude),
+            rotate_inverse(end.attitude, end.way),
+        )
+        length = math.sqrt(length_squared)
+        before = spatial_add(start.momentum, in_body)
+        increment = consistent(length, increment, before, end.momentum)
+        increment = consistent(length, increment, before, end.momentum)
+        step = as_pose(increment)
+        after = pose_renormalise(dual_multiply(pose, step))
+        pushed = spatial_add_scaled(momentum, 1.0 / h, in_body)
+        carried = transport_momentum(pose.real, after.real, pose_position(step), pushed)
+        after = arrive(parameters.water, inertia, time, h, after, carried).pose
+        return after, carried, DriftReport(report, spread(True, like))
+
+    return forced_step
+
+
+def multiplied(a: float, b: float) -> float:
+    """Return a b."""
+    return a * b
+
+
+def added(a: float, b: float) -> float:
+    """Return a + b."""
+    return a + b
