@@ -18,12 +18,20 @@ from dq_marine.algebra.dual_quaternion import (
     pose_position,
     pose_renormalise,
 )
-from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_add, spatial_scale
+from dq_marine.algebra.frames import momentum_bracket
+from dq_marine.algebra.selection import smallest_normal
+from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_add, spatial_dot, spatial_scale
 from dq_marine.algebra.stages import each_stage, stages_apart, stages_together
+from dq_marine.algebra.vector3 import scale
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift import Drift, transport_momentum
 from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept
-from dq_marine.integrator.gauss_stages import FreeBody, make_sweep_stages, squared_length
+from dq_marine.integrator.gauss_stages import (
+    FreeBody,
+    make_sweep_stages,
+    squared_length,
+    weighted_square,
+)
 from dq_marine.integrator.increment import (
     Increment,
     Twists,
@@ -32,15 +40,34 @@ from dq_marine.integrator.increment import (
     increment_of,
     joined,
 )
-from dq_marine.integrator.inertia import Inertia
+from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 
 FOUR = (1.0, 1.0, 1.0, 1.0)
 """The steps of a batch, side by side as stages are."""
+
+STEADY = 1e-6
+"""Of the energy's square: below this the square of the momentum's rate counts as zero."""
 
 
 def fitted(length: float, twists: Twists, before: Spatial, after: Spatial) -> Increment:
     """Return the motion of a step, consistent with the momentum before and after it."""
     return consistent(length, increment_of(twists), before, after)
+
+
+def on_energy_level(body: FreeBody, before: Spatial, after: Spatial) -> Spatial:
+    """Return the momentum after a step, moved by ad*_delta so that it has the energy before it (G10).
+
+    delta is the smallest of those that change the energy as much. Where the momentum hardly turns, energy hardly depends
+    on delta, and round-off counts more than what is to be corrected.
+    """
+    twist = twist_from_momentum(body.inertia, after)
+    rate = momentum_bracket(twist, after)
+    had = quadratic_form(body.inertia.inverse, before)
+    excess = spatial_dot(twist, after) - had
+    steepness = weighted_square(body.length_squared, rate) + STEADY * had * had + smallest_normal(had)
+    gain = 0.5 * excess / steepness
+    delta = Spatial(scale(gain, rate.angular), scale(gain * body.length_squared, rate.linear))
+    return spatial_add(after, momentum_bracket(delta, after))
 
 
 def moved_by(
@@ -74,7 +101,7 @@ def make_gauss_drift(stages: int) -> Drift:
         t = stages.twists
         after = spatial_add(before, stages.change)
         increment = fitted(length, Twists(t[0], t[1], t[2], t[3]), before, after)
-        increment = consistent(length, increment, before, after)
+        increment = consistent(length, increment, before, on_energy_level(body, before, after))
         return moved_by(inertia, h, increment, pose, momentum, stages.report)
 
     return gauss_drift
@@ -114,7 +141,7 @@ def make_gauss_four(stages: int) -> Drift:
         before, after = stages_together((c0, c1, c2, c3)), stages_together((c1, c2, c3, c4))
         parts = stages_apart(FOUR, each_stage(FOUR, fitted, (length, twists, before, after)))
         increment = joined(joined(parts[0], parts[1]), joined(parts[2], parts[3]))
-        increment = consistent(length, increment, c0, c4)
+        increment = consistent(length, increment, c0, on_energy_level(body, c0, c4))
         report = worst(worst(first.report, second.report), worst(third.report, fourth.report))
         return moved_by(inertia, h, increment, pose, momentum, report)
 

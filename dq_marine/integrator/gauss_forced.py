@@ -41,7 +41,6 @@ from dq_marine.algebra.spatial import (
     spatial_add,
     spatial_add_scaled,
     spatial_scale,
-    spatial_subtract,
 )
 from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale
@@ -110,11 +109,10 @@ def moved_place(place: Place, s: float, rate: Place) -> Place:
     )
 
 
-def place_distance(around: Surroundings, a: Place, b: Place) -> float:
-    """Return the square of the distance of two rates; ways follow from the rest, or show in the forces."""
-    difference = quaternion_add(a.attitude, quaternion_scale(-1.0, b.attitude))
-    turning = around.size * quaternion_dot(difference, difference)
-    return weighted_square(around.length_squared, spatial_subtract(a.momentum, b.momentum)) + turning
+def place_extent(around: Surroundings, rate: Place) -> float:
+    """Return the square of the size of a rate; ways follow from the rest, or show in the forces."""
+    turning = around.size * quaternion_dot(rate.attitude, rate.attitude)
+    return weighted_square(around.length_squared, rate.momentum) + turning
 
 
 def turned_to_world(q: Quaternion, a: Vector3) -> Vector3:
@@ -164,7 +162,7 @@ def make_forced_step(composition: Composition, method: Collocation) -> ForcedSte
         )
         return ForcedStage(rate, wrench)
 
-    sweeps = make_sweeps(method, evaluate, moved_place, place_distance)
+    sweeps = make_sweeps(method, evaluate, moved_place, place_extent, loose=False)
 
     def follow(start: Place, change: Place) -> Place:
         return moved_place(start, 1.0, change)
@@ -183,19 +181,18 @@ def make_forced_step(composition: Composition, method: Collocation) -> ForcedSte
         start = Place(spatial_scale(h, momentum), pose.real, spread((0.0, 0.0, 0.0), like))
         position = pose_position(pose)
         at_start = Surroundings(parameters, length_squared, like, h, position, wrench, time, 0.0)
-        push = evaluate(at_start, start).wrench
-        size = weighted_square(length_squared, start.momentum) + weighted_square(length_squared, push)
+        begun = evaluate(at_start, start)
+        size = weighted_square(length_squared, start.momentum)
+        size = size + weighted_square(length_squared, begun.wrench)
         size = size + smallest_normal(like)
         elapsed = each_stage(nodes, multiplied, (h, stage_constants(nodes, like)))
         times = each_stage(nodes, added, (time, elapsed))
         around = Surroundings(parameters, length_squared, size, h, position, wrench, times, elapsed)
-        found, report = sweeps(around, start, size)
+        found, report = sweeps(around, start, begun, size)
         places = each_stage(weights, follow, (start, stage_product(matrix, found.rate)))
         end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
         given = stage_sum(weights, each_stage(weights, impulse, (places, found.wrench)))  # (G9)
-        in_body = Spatial(
-            rotate_inverse(pose.real, given.angular), rotate_inverse(pose.real, given.linear)
-        )
+        in_body = Spatial(rotate_inverse(pose.real, given.angular), rotate_inverse(pose.real, given.linear))
         increment = Increment(
             quaternion_multiply(quaternion_conjugate(pose.real), end.attitude),
             rotate_inverse(end.attitude, end.way),

@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeAlias
 
 from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.selection import smallest_normal
-from dq_marine.algebra.spatial import Spatial, spatial_add_scaled, spatial_subtract
+from dq_marine.algebra.spatial import Spatial, spatial_add_scaled
 from dq_marine.algebra.stages import stage_product, stage_sum, stages_apart
 from dq_marine.algebra.vector3 import dot
 from dq_marine.integrator.collocation import Collocation
@@ -75,19 +75,19 @@ def weighted_square(length_squared: float, a: Spatial) -> float:
     return dot(a.angular, a.angular) + length_squared * dot(a.linear, a.linear)
 
 
-def free_distance(body: FreeBody, a: Spatial, b: Spatial) -> float:
-    """Return the square of the size of a - b."""
-    return weighted_square(body.length_squared, spatial_subtract(a, b))
+def free_extent(body: FreeBody, a: Spatial) -> float:
+    """Return the square of the size of a rate."""
+    return weighted_square(body.length_squared, a)
 
 
 def make_sweep_stages(method: Collocation) -> SweepStages:
     """Return (body, c) -> the stages (G1)-(G3) of a step."""
     weights, powers = method.weights, method.powers
-    sweeps = make_sweeps(method, free_stage, spatial_add_scaled, free_distance)
+    sweeps = make_sweeps(method, free_stage, spatial_add_scaled, free_extent, loose=True)
 
     def sweep_stages(body: FreeBody, c: Spatial) -> SweptStages:
         size = weighted_square(body.length_squared, c) + smallest_normal(c.linear[0])
-        found, report = sweeps(body, c, size)
+        found, report = sweeps(body, c, free_stage(body, c), size)
         twists = stages_apart(weights, stage_product(powers, found.twist))
         return SweptStages(twists, stage_sum(weights, found.rate), report)
 

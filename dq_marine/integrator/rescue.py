@@ -9,7 +9,7 @@ from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.selection import negation, select, select_call, some, spread
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
-from dq_marine.integrator.drift_report import DriftReport, drift_accepted
+from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.step import ACCEPTED, Progress, StepOutcome, StepParameters
 
 
@@ -22,6 +22,11 @@ class Stepped(NamedTuple):
 
 
 Take: TypeAlias = Callable[[StepParameters, Spatial, float, float, Stepped, bool], Stepped]
+
+
+def usable(report: DriftReport) -> bool:
+    """Whether steps may be used whose sweeps say themselves when they have converged."""
+    return report.solver.on_rest_branch & report.energy_kept
 
 
 def solved(progress: Progress, fine: bool, report: DriftReport, steps: int) -> Progress:
@@ -66,7 +71,7 @@ def make_take(step: Callable[..., Any], fallback: Callable[..., StepOutcome]) ->
     ) -> Stepped:
         pose, momentum, report = step(parameters, time, h, now.pose, now.momentum, wrench)
         asked = wanted & now.progress.under_way
-        fine = asked & drift_accepted(report)
+        fine = asked & usable(report)
         pose, momentum = select(fine, pose, now.pose), select(fine, momentum, now.momentum)
         progress = solved(now.progress, fine, report, 1)
         lost = asked & negation(fine)

@@ -1,23 +1,30 @@
-"""Fixed-point sweeps over all stages of a collocation method, until they no longer change."""
+"""Fixed-point sweeps over all stages of a collocation method, until they have converged."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
 from dq_marine.algebra.selection import by_precision, negation, select, some, spread
-from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum
+from dq_marine.algebra.stages import each_stage, stage_product, stage_sum
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift_report import SolverReport, accepted_squared
 
 MAX_SWEEPS = 60
-FIRST_TEST = 3  # sweeps before the first test: fewer never suffice
+FIRST_TEST = 4  # sweeps before the first test: fewer never suffice
 ROUND_OFF = 1e-15  # of the size: what the next sweep would change, when sweeps end
 ROUND_OFF_SINGLE = 3e-7  # the same in single precision
 HOPELESS = 1e4  # of the size: sweeps that change more diverge
+OF_THE_ERROR = 0.1  # see `loose`
 
 Evaluate: TypeAlias = Callable[[Any, Any], Any]
-Sweeps: TypeAlias = Callable[[Any, Any, float], tuple[Any, SolverReport]]
+Sweeps: TypeAlias = Callable[[Any, Any, Any, float], tuple[Any, SolverReport]]
+
+
+def same(evaluation: Any) -> Any:
+    """Return the evaluation: at all stages, where `each_stage` has it."""
+    return evaluation
 
 
 def kept(active: bool, new: Any, old: Any) -> Any:
@@ -29,51 +36,61 @@ def make_sweeps(
     method: Collocation,
     evaluate: Evaluate,
     moved: Callable[[Any, float, Any], Any],
-    distance: Callable[[Any, Any, Any], float],
+    extent: Callable[[Any, Any], float],
+    *,
+    loose: bool,
 ) -> Sweeps:
-    """Return (context, start, size) -> (evaluation at all stages, report): the stages of one step of y' = rate(y).
+    """Return (context, start, begun, size) -> (evaluation at all stages, report): a step's stages, of y' = rate(y).
 
-    They solve y_i = start + sum_j A_ij rate_j, rate_i = evaluate(context, y_i).rate. The test looks one sweep ahead: two
-    sweeps show the contraction, hence what a third would change. A body that is done waits, unchanged, for those
-    beside it.
+    They solve y_i = start + sum_j A_ij rate_j, rate_i = evaluate(context, y_i).rate. `begun` is the evaluation at the
+    start, which the first sweep takes for all stages; changes are compared with `size`, a square. The test looks one
+    sweep ahead: two sweeps show the contraction, hence what a third would change. A body that is done waits,
+    unchanged, for those beside it. The report's `on_rest_branch` says whether they converged.
 
     Args:
         method: of collocation.
         evaluate: (context, y) -> a named tuple with `rate`.
         moved: (y, s, rate) -> y + s rate.
-        distance: (context, rate, rate) -> the square of their distance.
+        extent: (context, rate) -> the square of its size.
+        loose: whether sweeps may end where the next would change less than the method errs, by a tenth of d^3: d is the
+            highest coefficient of the rate's polynomial over the size, and d^(9/4) what a method of order 8 errs by.
+            Else they go on to round-off.
     """
-    matrix, weights, nodes = method.matrix, method.weights, method.nodes
+    matrix, weights, powers = method.matrix, method.weights, method.powers
     ones = (1.0,) * len(weights)
+    highest = powers[len(powers) - 1]
 
     def follow(start: Any, change: Any) -> Any:
         return moved(start, 1.0, change)
 
-    def sweeps(context: Any, start: Any, size: float) -> tuple[Any, SolverReport]:
+    def squared_change(context: Any, new: Any, old: Any) -> float:
+        return extent(context, moved(new, -1.0, old))
+
+    def sweeps(context: Any, start: Any, begun: Any, size: float) -> tuple[Any, SolverReport]:
         tolerance = by_precision(size, ROUND_OFF**2, ROUND_OFF_SINGLE**2) * size
-        begun = each_stage(weights, evaluate, (context, start))
-        early = each_stage(weights, moved, (start, stage_constants(nodes, size), begun.rate))
-        now = each_stage(weights, evaluate, (context, early))
+        now = each_stage(weights, same, (begun,))
         active = spread(True, size)
-        before = last = size
+        converged = negation(active)
+        before = last = spread(math.inf, size)
         count = 0
-        for sweep in range(MAX_SWEEPS):
-            new = each_stage(
-                weights,
-                evaluate,
-                (context, each_stage(weights, follow, (start, stage_product(matrix, now.rate)))),
-            )
+        for sweep in range(1, MAX_SWEEPS + 1):
+            y = each_stage(weights, follow, (start, stage_product(matrix, now.rate)))
+            new = each_stage(weights, evaluate, (context, y))
             count += 1
-            change = stage_sum(ones, each_stage(weights, distance, (context, new.rate, now.rate)))
-            before = select(active, last, before)
-            last = select(active, change, last)
+            if sweep >= FIRST_TEST - 1:
+                change = stage_sum(ones, each_stage(weights, squared_change, (context, new.rate, now.rate)))
+                before, last = select(active, last, before), select(active, change, last)
             now = each_stage(weights, kept, (active, new, now))
+            if loose and sweep == FIRST_TEST - 1:
+                rough = extent(context, stage_sum(highest, now.rate)) / size
+                tolerance = max(tolerance, OF_THE_ERROR**2 * size * (rough * rough * rough))
             if sweep >= FIRST_TEST:
-                done = (change * change <= tolerance * before) | (change <= tolerance)
-                stagnates = (change <= accepted_squared(change) * size) & (change >= 0.25 * before)
-                active = active & negation(done | stagnates) & (change <= HOPELESS**2 * size)
+                done = (last * last <= tolerance * before) | (last <= tolerance)
+                stagnates = (last <= accepted_squared(last) * size) & (last >= 0.25 * before)
+                converged = converged | (active & (done | stagnates))
+                active = active & negation(converged) & (last <= HOPELESS**2 * size)
                 if not some(active):
                     break
-        return now, SolverReport(last / size, last <= before, count)
+        return now, SolverReport(last / size, converged, count)
 
     return sweeps

@@ -184,8 +184,8 @@ class Assembly:
             )
         if self.water.water not in UNIFORM_WATER:
             raise InvalidInputError(
-                f"scheme = {GAUSS!r}, but the current varies ({self.water.name}); give a uniform and steady current, or "
-                'scheme="midpoint"'
+                f"scheme = {GAUSS!r}, but the current varies ({self.water.name}); give a uniform and steady current, "
+                'or scheme="midpoint"'
             )
 
     @property
