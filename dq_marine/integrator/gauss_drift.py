@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import functools
 import math
+from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import (
     DualQuaternion,
@@ -54,7 +55,14 @@ def fitted(length: float, twists: Twists, before: Spatial, after: Spatial) -> In
     return consistent(length, increment_of(twists), before, after)
 
 
-def on_energy_level(body: FreeBody, before: Spatial, after: Spatial) -> Spatial:
+class Levelled(NamedTuple):
+    """A momentum that has been given the energy it had before a step, and whether it nearly had it anyway."""
+
+    momentum: Spatial
+    energy_kept: bool
+
+
+def on_energy_level(body: FreeBody, before: Spatial, after: Spatial) -> Levelled:
     """Return the momentum after a step, moved by ad*_delta so that it has the energy before it (G10).
 
     delta is the smallest of those that change the energy as much. Where the momentum hardly turns, energy hardly depends
@@ -63,27 +71,24 @@ def on_energy_level(body: FreeBody, before: Spatial, after: Spatial) -> Spatial:
     twist = twist_from_momentum(body.inertia, after)
     rate = momentum_bracket(twist, after)
     had = quadratic_form(body.inertia.inverse, before)
-    excess = spatial_dot(twist, after) - had
+    has = spatial_dot(twist, after)
     steepness = weighted_square(body.length_squared, rate) + STEADY * had * had + smallest_normal(had)
-    gain = 0.5 * excess / steepness
+    gain = 0.5 * (has - had) / steepness
     delta = Spatial(scale(gain, rate.angular), scale(gain * body.length_squared, rate.linear))
-    return spatial_add(after, momentum_bracket(delta, after))
+    return Levelled(spatial_add(after, momentum_bracket(delta, after)), is_energy_kept(had, has))
 
 
 def moved_by(
-    inertia: Inertia,
-    h: float,
     increment: Increment,
     pose: DualQuaternion,
     momentum: Spatial,
-    solver: SolverReport,
+    report: DriftReport,
 ) -> tuple[DualQuaternion, Spatial, DriftReport]:
     """Return pose and momentum after a motion, and a drift's report."""
     step = as_pose(increment)
     after = pose_renormalise(dual_multiply(pose, step))
     carried = transport_momentum(pose.real, after.real, pose_position(step), momentum)
-    kept = is_energy_kept(quadratic_form(inertia.inverse, momentum), quadratic_form(inertia.inverse, carried))
-    return after, carried, DriftReport(solver, kept)
+    return after, carried, report
 
 
 @functools.cache
@@ -101,8 +106,9 @@ def make_gauss_drift(stages: int) -> Drift:
         t = stages.twists
         after = spatial_add(before, stages.change)
         increment = fitted(length, Twists(t[0], t[1], t[2], t[3]), before, after)
-        increment = consistent(length, increment, before, on_energy_level(body, before, after))
-        return moved_by(inertia, h, increment, pose, momentum, stages.report)
+        levelled = on_energy_level(body, before, after)
+        increment = consistent(length, increment, before, levelled.momentum)
+        return moved_by(increment, pose, momentum, DriftReport(stages.report, levelled.energy_kept))
 
     return gauss_drift
 
@@ -141,9 +147,10 @@ def make_gauss_four(stages: int) -> Drift:
         before, after = stages_together((c0, c1, c2, c3)), stages_together((c1, c2, c3, c4))
         parts = stages_apart(FOUR, each_stage(FOUR, fitted, (length, twists, before, after)))
         increment = joined(joined(parts[0], parts[1]), joined(parts[2], parts[3]))
-        increment = consistent(length, increment, c0, on_energy_level(body, c0, c4))
+        levelled = on_energy_level(body, c0, c4)
+        increment = consistent(length, increment, c0, levelled.momentum)
         report = worst(worst(first.report, second.report), worst(third.report, fourth.report))
-        return moved_by(inertia, h, increment, pose, momentum, report)
+        return moved_by(increment, pose, momentum, DriftReport(report, levelled.energy_kept))
 
     return gauss_four
 

@@ -12,11 +12,10 @@ from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift_report import SolverReport, accepted_squared
 
 MAX_SWEEPS = 60
-FIRST_TEST = 4  # sweeps before the first test: fewer never suffice
 ROUND_OFF = 1e-15  # of the size: what the next sweep would change, when sweeps end
 ROUND_OFF_SINGLE = 3e-7  # the same in single precision
 HOPELESS = 1e4  # of the size: sweeps that change more diverge
-OF_THE_ERROR = 0.1  # see `loose`
+OF_THE_ERROR = 0.0015  # see `loose`
 
 Evaluate: TypeAlias = Callable[[Any, Any], Any]
 Sweeps: TypeAlias = Callable[[Any, Any, Any, float], tuple[Any, SolverReport]]
@@ -52,13 +51,13 @@ def make_sweeps(
         evaluate: (context, y) -> a named tuple with `rate`.
         moved: (y, s, rate) -> y + s rate.
         extent: (context, rate) -> the square of its size.
-        loose: whether sweeps may end where the next would change less than the method errs, by a tenth of d^3: d is the
-            highest coefficient of the rate's polynomial over the size, and d^(9/4) what a method of order 8 errs by.
-            Else they go on to round-off.
+        loose: whether sweeps may end where the next would change less than the method errs. With s stages, sweep s + 1
+            changes the rates by d, of order s + 2 in the step size: less than d^2, of order 2s + 4, is below the error
+            of the method, of order 2s + 1. Else they go on to round-off.
     """
-    matrix, weights, powers = method.matrix, method.weights, method.powers
+    matrix, weights = method.matrix, method.weights
     ones = (1.0,) * len(weights)
-    highest = powers[len(powers) - 1]
+    telling = len(weights) + 1  # the sweep whose change tells the error; tests begin with the next
 
     def follow(start: Any, change: Any) -> Any:
         return moved(start, 1.0, change)
@@ -77,14 +76,13 @@ def make_sweeps(
             y = each_stage(weights, follow, (start, stage_product(matrix, now.rate)))
             new = each_stage(weights, evaluate, (context, y))
             count += 1
-            if sweep >= FIRST_TEST - 1:
+            if sweep >= telling:
                 change = stage_sum(ones, each_stage(weights, squared_change, (context, new.rate, now.rate)))
                 before, last = select(active, last, before), select(active, change, last)
             now = each_stage(weights, kept, (active, new, now))
-            if loose and sweep == FIRST_TEST - 1:
-                rough = extent(context, stage_sum(highest, now.rate)) / size
-                tolerance = max(tolerance, OF_THE_ERROR**2 * size * (rough * rough * rough))
-            if sweep >= FIRST_TEST:
+            if loose and sweep == telling:
+                tolerance = max(tolerance, OF_THE_ERROR**2 * (last * last / size))
+            if sweep > telling:
                 done = (last * last <= tolerance * before) | (last <= tolerance)
                 stagnates = (last <= accepted_squared(last) * size) & (last >= 0.25 * before)
                 converged = converged | (active & (done | stagnates))
