@@ -1,4 +1,4 @@
-"""Free motion by Gauss's collocation on the momentum: a drift of order 8, over one step or over four at once.
+"""Free motion by Gauss's collocation on the momentum: a drift over four steps at once.
 
 The momentum at the stages comes from `gauss_stages`, the pose from the series of the twist that goes with it. The pose is
 then made consistent with the momentum (G6), and the momentum that is handed on is the old one, carried by the pose: the
@@ -37,16 +37,18 @@ from dq_marine.integrator.increment import (
     Increment,
     Twists,
     as_pose,
+    carried,
     consistent,
     increment_of,
     joined,
+    shifted,
 )
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 
 FOUR = (1.0, 1.0, 1.0, 1.0)
 """The steps of a batch, side by side as stages are."""
 
-STEADY = 1e-6
+STEADY = 1e-8
 """Of the energy's square: below this the square of the momentum's rate counts as zero."""
 
 
@@ -56,26 +58,27 @@ def fitted(length: float, twists: Twists, before: Spatial, after: Spatial) -> In
 
 
 class Levelled(NamedTuple):
-    """A momentum that has been given the energy it had before a step, and whether it nearly had it anyway."""
+    """An increment after which a body has the energy it had before, and whether it nearly had it anyway."""
 
-    momentum: Spatial
+    increment: Increment
     energy_kept: bool
 
 
-def on_energy_level(body: FreeBody, before: Spatial, after: Spatial) -> Levelled:
-    """Return the momentum after a step, moved by ad*_delta so that it has the energy before it (G10).
+def on_energy_level(body: FreeBody, increment: Increment, before: Spatial) -> Levelled:
+    """Return the increment f exp(delta) after which the momentum has the energy it had before (G10).
 
     delta is the smallest of those that change the energy as much. Where the momentum hardly turns, energy hardly depends
     on delta, and round-off counts more than what is to be corrected.
     """
+    after = carried(increment, before)
     twist = twist_from_momentum(body.inertia, after)
     rate = momentum_bracket(twist, after)
     had = quadratic_form(body.inertia.inverse, before)
     has = spatial_dot(twist, after)
     steepness = weighted_square(body.length_squared, rate) + STEADY * had * had + smallest_normal(had)
     gain = 0.5 * (has - had) / steepness
-    delta = Spatial(scale(gain, rate.angular), scale(gain * body.length_squared, rate.linear))
-    return Levelled(spatial_add(after, momentum_bracket(delta, after)), is_energy_kept(had, has))
+    turn, shift = scale(gain, rate.angular), scale(gain * body.length_squared, rate.linear)
+    return Levelled(shifted(increment, turn, shift), is_energy_kept(had, has))
 
 
 def moved_by(
@@ -87,30 +90,7 @@ def moved_by(
     """Return pose and momentum after a motion, and a drift's report."""
     step = as_pose(increment)
     after = pose_renormalise(dual_multiply(pose, step))
-    carried = transport_momentum(pose.real, after.real, pose_position(step), momentum)
-    return after, carried, report
-
-
-@functools.cache
-def make_gauss_drift(stages: int) -> Drift:
-    """Return (inertia, h, pose, momentum) -> (pose, momentum, report): one step of free motion."""
-    sweep_stages = make_sweep_stages(gauss(stages))
-
-    def gauss_drift(
-        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
-    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        body = FreeBody(inertia, squared_length(inertia))
-        length = math.sqrt(body.length_squared)
-        before = spatial_scale(h, momentum)
-        stages = sweep_stages(body, before)
-        t = stages.twists
-        after = spatial_add(before, stages.change)
-        increment = fitted(length, Twists(t[0], t[1], t[2], t[3]), before, after)
-        levelled = on_energy_level(body, before, after)
-        increment = consistent(length, increment, before, levelled.momentum)
-        return moved_by(increment, pose, momentum, DriftReport(stages.report, levelled.energy_kept))
-
-    return gauss_drift
+    return after, transport_momentum(pose.real, after.real, pose_position(step), momentum), report
 
 
 @functools.cache
@@ -147,10 +127,9 @@ def make_gauss_four(stages: int) -> Drift:
         before, after = stages_together((c0, c1, c2, c3)), stages_together((c1, c2, c3, c4))
         parts = stages_apart(FOUR, each_stage(FOUR, fitted, (length, twists, before, after)))
         increment = joined(joined(parts[0], parts[1]), joined(parts[2], parts[3]))
-        levelled = on_energy_level(body, c0, c4)
-        increment = consistent(length, increment, c0, levelled.momentum)
+        levelled = on_energy_level(body, consistent(length, increment, c0, c4), c0)
         report = worst(worst(first.report, second.report), worst(third.report, fourth.report))
-        return moved_by(increment, pose, momentum, DriftReport(report, levelled.energy_kept))
+        return moved_by(levelled.increment, pose, momentum, DriftReport(report, levelled.energy_kept))
 
     return gauss_four
 
