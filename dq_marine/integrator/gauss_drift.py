@@ -20,18 +20,16 @@ from dq_marine.algebra.dual_quaternion import (
     pose_renormalise,
 )
 from dq_marine.algebra.frames import momentum_bracket
-from dq_marine.algebra.selection import smallest_normal
 from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_add, spatial_dot, spatial_scale
 from dq_marine.algebra.stages import each_stage, stages_apart, stages_together
-from dq_marine.algebra.vector3 import scale
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift import Drift, transport_momentum
 from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept
+from dq_marine.integrator.energy_level import levelling
 from dq_marine.integrator.gauss_stages import (
     FreeBody,
     make_sweep_stages,
     squared_length,
-    weighted_square,
 )
 from dq_marine.integrator.increment import (
     Increment,
@@ -48,9 +46,6 @@ from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 FOUR = (1.0, 1.0, 1.0, 1.0)
 """The steps of a batch, side by side as stages are."""
 
-STEADY = 1e-8
-"""Of the energy's square: below this the square of the momentum's rate counts as zero."""
-
 
 def fitted(length: float, twists: Twists, before: Spatial, after: Spatial) -> Increment:
     """Return the motion of a step, consistent with the momentum before and after it."""
@@ -65,20 +60,14 @@ class Levelled(NamedTuple):
 
 
 def on_energy_level(body: FreeBody, increment: Increment, before: Spatial) -> Levelled:
-    """Return the increment f exp(delta) after which the momentum has the energy it had before (G10).
-
-    delta is the smallest of those that change the energy as much. Where the momentum hardly turns, energy hardly depends
-    on delta, and round-off counts more than what is to be corrected.
-    """
+    """Return the increment after which the momentum has the energy it had before (G10)."""
     after = carried(increment, before)
     twist = twist_from_momentum(body.inertia, after)
     rate = momentum_bracket(twist, after)
     had = quadratic_form(body.inertia.inverse, before)
     has = spatial_dot(twist, after)
-    steepness = weighted_square(body.length_squared, rate) + STEADY * had * had + smallest_normal(had)
-    gain = 0.5 * (has - had) / steepness
-    turn, shift = scale(gain, rate.angular), scale(gain * body.length_squared, rate.linear)
-    return Levelled(shifted(increment, turn, shift), is_energy_kept(had, has))
+    delta = levelling(body.length_squared, rate, 0.5 * (has - had), had)
+    return Levelled(shifted(increment, delta.angular, delta.linear), is_energy_kept(had, has))
 
 
 def moved_by(

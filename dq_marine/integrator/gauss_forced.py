@@ -38,18 +38,21 @@ from dq_marine.algebra.quaternion import (
 from dq_marine.algebra.selection import smallest_normal, spread
 from dq_marine.algebra.spatial import (
     Spatial,
+    quadratic_form,
     spatial_add,
     spatial_add_scaled,
+    spatial_dot,
     spatial_scale,
 )
-from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum
+from dq_marine.algebra.stages import each_stage, stage_constants, stage_sum
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
-from dq_marine.integrator.forces import join_pose_forces, join_velocity_forces
+from dq_marine.integrator.energy_level import levelling
+from dq_marine.integrator.forces import join_pose_forces, join_potentials, join_velocity_forces
 from dq_marine.integrator.gauss_stages import squared_length, weighted_square
-from dq_marine.integrator.increment import Increment, as_pose, consistent, turned
+from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, turned
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import Composition, StepParameters
 from dq_marine.integrator.sweeps import make_sweeps
@@ -64,10 +67,13 @@ class Place(NamedTuple):
 
 
 class ForcedStage(NamedTuple):
-    """One evaluation of (G7) and of the rates in (G8): these, and h^2 F."""
+    """One evaluation of (G7) and of the rates in (G8): these, h^2 F, h times the twist, and where it was made."""
 
     rate: Place
     wrench: Spatial
+    twist: Spatial
+    attitude: Quaternion
+    way: Vector3
 
 
 class Surroundings(NamedTuple):
@@ -122,10 +128,11 @@ def turned_to_world(q: Quaternion, a: Vector3) -> Vector3:
     return add_scaled(a, 2.0 / quaternion_dot(q, q), turn)
 
 
-def impulse(place: Place, wrench: Spatial) -> Spatial:
-    """Return a wrench in world axes, about the step's start (G9)."""
-    force = turned_to_world(place.attitude, wrench.linear)
-    return Spatial(add(turned_to_world(place.attitude, wrench.angular), cross(place.way, force)), force)
+def impulse(stage: ForcedStage) -> Spatial:
+    """Return a stage's h^2 F in world axes, about the step's start (G9)."""
+    force = turned_to_world(stage.attitude, stage.wrench.linear)
+    moment = turned_to_world(stage.attitude, stage.wrench.angular)
+    return Spatial(add(moment, cross(stage.way, force)), force)
 
 
 def make_forces(composition: Composition) -> Callable[[Surroundings, Place, Spatial], Spatial]:
@@ -146,11 +153,60 @@ def make_forces(composition: Composition) -> Callable[[Surroundings, Place, Spat
     return forces_at
 
 
+def make_landing(composition: Composition) -> Callable[..., Increment]:
+    """Return (surroundings, start, pose, increment, momentum it carries, work) -> the increment, levelled (G10).
+
+    Where all forces of the scene have potentials, kinetic and potential energy together change by the work of
+    the constant wrench alone, as they should. Elsewhere the increment is left as it is.
+    """
+    if not composition.potentials:
+
+        def left_alone(
+            around: Surroundings,
+            start: Place,
+            pose: DualQuaternion,
+            increment: Increment,
+            pushed: Spatial,
+            work: float,
+        ) -> Increment:
+            return increment
+
+        return left_alone
+    potential = join_potentials(composition.potentials)
+    add_pose_forces = join_pose_forces(composition.pose_forces)
+    arrive = composition.water.arrive
+
+    def levelled(
+        around: Surroundings,
+        start: Place,
+        pose: DualQuaternion,
+        increment: Increment,
+        pushed: Spatial,
+        work: float,
+    ) -> Increment:
+        parameters, square = around.parameters, around.h * around.h
+        inertia, forces = parameters.inertia, parameters.forces[0]
+        reached = pose_renormalise(dual_multiply(pose, as_pose(increment)))
+        momentum = carried(increment, pushed)
+        twist = twist_from_momentum(inertia, momentum)
+        had = 0.5 * quadratic_form(inertia.inverse, start.momentum)
+        has = 0.5 * spatial_dot(twist, momentum)
+        gained = potential(forces, reached) - potential(forces, pose) - work
+        there = arrive(parameters.water, inertia, around.time, around.h, reached, momentum).pose
+        force = add_pose_forces(forces, there, around.time + around.h, around.wrench)
+        rate = spatial_add_scaled(momentum_bracket(twist, momentum), square, force)
+        excess = (has - had) + square * gained
+        delta = levelling(around.length_squared, rate, excess, around.size)
+        return shifted(increment, delta.angular, delta.linear)
+
+    return levelled
+
+
 def make_forced_step(composition: Composition, method: Collocation) -> ForcedStep:
     """Return (parameters, time, h, pose, momentum, wrench) -> (pose, momentum, report): one step of order 2s."""
-    forces_at = make_forces(composition)
+    forces_at, land = make_forces(composition), make_landing(composition)
     arrive = composition.water.arrive
-    matrix, weights, nodes = method.matrix, method.weights, method.nodes
+    weights, nodes = method.weights, method.nodes
 
     def evaluate(around: Surroundings, place: Place) -> ForcedStage:
         twist = twist_from_momentum(around.parameters.inertia, place.momentum)
@@ -160,12 +216,9 @@ def make_forced_step(composition: Composition, method: Collocation) -> ForcedSte
             turned(place.attitude, scale(0.5, twist.angular)),  # (G8)
             rotate(place.attitude, twist.linear),
         )
-        return ForcedStage(rate, wrench)
+        return ForcedStage(rate, wrench, twist, place.attitude, place.way)
 
-    sweeps = make_sweeps(method, evaluate, moved_place, place_extent, loose=False)
-
-    def follow(start: Place, change: Place) -> Place:
-        return moved_place(start, 1.0, change)
+    sweeps = make_sweeps(method, evaluate, moved_place, place_extent, loose=True)
 
     def forced_step(
         parameters: StepParameters,
@@ -183,32 +236,48 @@ def make_forced_step(composition: Composition, method: Collocation) -> ForcedSte
         at_start = Surroundings(parameters, length_squared, like, h, position, wrench, time, 0.0)
         begun = evaluate(at_start, start)
         size = weighted_square(length_squared, start.momentum)
-        size = size + weighted_square(length_squared, begun.wrench)
-        size = size + smallest_normal(like)
+        size = size + weighted_square(length_squared, begun.wrench) + smallest_normal(like)
         elapsed = each_stage(nodes, multiplied, (h, stage_constants(nodes, like)))
         times = each_stage(nodes, added, (time, elapsed))
         around = Surroundings(parameters, length_squared, size, h, position, wrench, times, elapsed)
         found, report = sweeps(around, start, begun, size)
-        places = each_stage(weights, follow, (start, stage_product(matrix, found.rate)))
         end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
-        given = stage_sum(weights, each_stage(weights, impulse, (places, found.wrench)))  # (G9)
-        in_body = Spatial(rotate_inverse(pose.real, given.angular), rotate_inverse(pose.real, given.linear))
-        increment = Increment(
-            quaternion_multiply(quaternion_conjugate(pose.real), end.attitude),
-            rotate_inverse(end.attitude, end.way),
-        )
-        length = math.sqrt(length_squared)
-        before = spatial_add(start.momentum, in_body)
-        increment = consistent(length, increment, before, end.momentum)
-        increment = consistent(length, increment, before, end.momentum)
+        given = stage_sum(weights, each_stage(weights, impulse, (found,)))  # (G9)
+        work = spatial_dot(wrench, stage_sum(weights, found.twist))
+        pushed = spatial_add(start.momentum, to_body(pose.real, given))
+        increment = consistent_twice(math.sqrt(length_squared), motion(start, end), pushed, end.momentum)
+        energy = 0.5 * quadratic_form(inertia.inverse, start.momentum)
+        ending = Surroundings(parameters, length_squared, energy, h, position, wrench, time, h)
+        increment = land(ending, start, pose, increment, pushed, work)
         step = as_pose(increment)
         after = pose_renormalise(dual_multiply(pose, step))
-        pushed = spatial_add_scaled(momentum, 1.0 / h, in_body)
-        carried = transport_momentum(pose.real, after.real, pose_position(step), pushed)
-        after = arrive(parameters.water, inertia, time, h, after, carried).pose
-        return after, carried, DriftReport(report, spread(True, like))
+        impulsive = spatial_add_scaled(momentum, 1.0 / h, to_body(pose.real, given))
+        given_on = transport_momentum(pose.real, after.real, pose_position(step), impulsive)
+        after = arrive(parameters.water, inertia, time, h, after, given_on).pose
+        return after, given_on, DriftReport(report, spread(True, like))
 
     return forced_step
+
+
+def follow(start: Place, change: Place) -> Place:
+    """Return start + change."""
+    return moved_place(start, 1.0, change)
+
+
+def to_body(q: Quaternion, momentum: Spatial) -> Spatial:
+    """Return a momentum about the body's origin, in its axes."""
+    return Spatial(rotate_inverse(q, momentum.angular), rotate_inverse(q, momentum.linear))
+
+
+def motion(start: Place, end: Place) -> Increment:
+    """Return the motion from one place to another."""
+    rotation = quaternion_multiply(quaternion_conjugate(start.attitude), end.attitude)
+    return Increment(rotation, rotate_inverse(end.attitude, end.way))
+
+
+def consistent_twice(length: float, increment: Increment, before: Spatial, after: Spatial) -> Increment:
+    """Return the increment that carries one momentum to another: two steps of Newton's method (G6)."""
+    return consistent(length, consistent(length, increment, before, after), before, after)
 
 
 def multiplied(a: float, b: float) -> float:

@@ -15,6 +15,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.actuation import NO_ACTUATION
 from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.integrator.extrapolated import ExtrapolatedTiming, make_extrapolated
+from dq_marine.integrator.forces import Potential
 from dq_marine.integrator.gauss import GaussTiming, make_gauss_method
 from dq_marine.integrator.kick import Kick
 from dq_marine.integrator.midpoint_drift import midpoint_drift, midpoint_fallback
@@ -63,9 +64,10 @@ def check_method(scheme: str, order: int) -> None:
 
 
 @functools.cache
-def gauss_composition(strang: Composition, stages: int) -> Composition:
+def gauss_composition(strang: Composition, stages: int, potentials: tuple[Potential, ...]) -> Composition:
     """Return the composition of Gauss's collocation that falls back to a step of another."""
-    return replace(strang, method=make_gauss_method(stages), fallback=make_advance(strang))
+    method, fallback = make_gauss_method(stages), make_advance(strang)
+    return replace(strang, method=method, fallback=fallback, potentials=potentials)
 
 
 class Method(NamedTuple):
@@ -135,7 +137,7 @@ class Assembly:
     def composition(self) -> Composition:
         """The functions of the step."""
         if self.scheme == GAUSS:
-            return gauss_composition(self._strang.composition, GAUSS_STAGES[self.order])
+            return gauss_composition(self._strang.composition, GAUSS_STAGES[self.order], self._potentials)
         drift, fallback = DRIFTS[self.scheme]
         return Composition(
             method=self._method.make,
@@ -187,6 +189,12 @@ class Assembly:
                 f"scheme = {GAUSS!r}, but the current varies ({self.water.name}); give a uniform and steady current, "
                 'or scheme="midpoint"'
             )
+
+    @property
+    def _potentials(self) -> tuple[Potential, ...]:
+        """Of all forces; none if one force has none."""
+        found = tuple(force.potential for force in self._present(0.0) if force.potential is not None)
+        return found if len(found) == len(self._present(0.0)) else ()
 
     @property
     def _strang(self) -> Assembly:
