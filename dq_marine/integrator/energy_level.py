@@ -14,9 +14,9 @@ STEADY = 1e-8
 def levelling(length_squared: float, rate: Spatial, excess: float, energy: float) -> Spatial:
     """Return the smallest turn and shift delta of the body frame that take away an excess of energy (G10).
 
-    A motion delta that carries the momentum along changes the energy by -rate . delta, where rate is that of the momentum,
-    forces included. Where the momentum hardly changes, energy hardly depends on delta, and round-off counts more
-    than what is to be corrected.
+    A motion delta that carries the momentum along changes the energy by -rate . delta, where rate is that of the
+    momentum, forces included. Where the momentum hardly changes, energy hardly depends on delta, and round-off counts
+    more than what is to be corrected.
 
     Args:
         length_squared: how turns and shifts compare [m^2].

@@ -1,8 +1,9 @@
 """Gauss's collocation for whole scenes: order 8 for smooth forces, exact in the momentum that they leave alone.
 
-Without forces a call is steps of free motion, four at a time (`gauss_drift`); with forces, steps with forces at the stages
-(`gauss_forced`). A step whose sweeps do not converge is taken by the composition's fallback, a step of Strang's method, and
-counted. Gauss's collocation on the momentum keeps energy, momentum and Casimirs of free bodies. It is not variational.
+Without forces a call is steps of free motion, four at a time (`gauss_drift`); with forces, steps with forces at the
+stages (`gauss_forced`). A step whose sweeps do not converge is taken by the composition's fallback, a step of
+Strang's method, and counted. Gauss's collocation on the momentum keeps energy, momentum and Casimirs of free bodies. It
+is not variational.
 """
 
 from __future__ import annotations

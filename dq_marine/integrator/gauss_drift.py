@@ -1,10 +1,9 @@
 """Free motion by Gauss's collocation on the momentum: a drift over four steps at once.
 
-The momentum at the stages comes from `gauss_stages`, the pose from the series of the twist that goes with it. The pose is
-then made consistent with the momentum (G6), and the momentum that is handed on is the old one, carried by the pose: the
-spatial momentum is exact to round-off, energy and Casimirs to the tolerance of the sweeps. The method is symmetric
-in the momentum. It is not variational: no discrete action stands behind it, and the symplectic form is kept only to the
-order of the method.
+The momentum at the stages comes from `gauss_stages`, the pose from the series of the twist that goes with it. The pose
+is then made consistent with the momentum (G6) and its energy (G10), and the momentum that is handed on is the old one,
+carried by the pose: the spatial momentum is exact to round-off. The method is not variational: no discrete action
+stands behind it, and the symplectic form is kept only to the order of the method.
 """
 
 from __future__ import annotations

@@ -52,7 +52,7 @@ from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.energy_level import levelling
 from dq_marine.integrator.forces import join_pose_forces, join_potentials, join_velocity_forces
 from dq_marine.integrator.gauss_stages import squared_length, weighted_square
-from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, turned
+from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, turned, unit
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import Composition, StepParameters
 from dq_marine.integrator.sweeps import make_sweeps
@@ -159,7 +159,7 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
     Where all forces of the scene have potentials, kinetic and potential energy together change by the work of
     the constant wrench alone, as they should. Elsewhere the increment is left as it is.
     """
-    if not composition.potentials:
+    if composition.velocity_forces or len(composition.potentials) < len(composition.pose_forces):
 
         def left_alone(
             around: Surroundings,
@@ -271,8 +271,9 @@ def to_body(q: Quaternion, momentum: Spatial) -> Spatial:
 
 def motion(start: Place, end: Place) -> Increment:
     """Return the motion from one place to another."""
-    rotation = quaternion_multiply(quaternion_conjugate(start.attitude), end.attitude)
-    return Increment(rotation, rotate_inverse(end.attitude, end.way))
+    attitude = unit(end.attitude)
+    rotation = quaternion_multiply(quaternion_conjugate(start.attitude), attitude)
+    return Increment(rotation, rotate_inverse(attitude, end.way))
 
 
 def consistent_twice(length: float, increment: Increment, before: Spatial, after: Spatial) -> Increment:

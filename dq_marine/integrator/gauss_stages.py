@@ -7,7 +7,8 @@ With c = h mu and W = M^-1 the momentum at the stages is (docs/theory.md, eqs. G
     c' = c + sum_i b_i K_i                                                                           (G3)
 
 The equations are quadratic in y, and energy and both Casimirs are quadratic, too: the method keeps them, as far as the
-sweeps (G1), (G2) have converged. They contract by about a sixth of h rho, where rho is the rate at which momentum turns.
+sweeps (G1), (G2) have converged. They contract by about a sixth of h rho, where rho is the rate at which momentum
+turns.
 """
 
 from __future__ import annotations

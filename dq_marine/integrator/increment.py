@@ -11,6 +11,7 @@ from dq_marine.algebra.quaternion import (
     Quaternion,
     quaternion_add,
     quaternion_conjugate,
+    quaternion_dot,
     quaternion_from_vector,
     quaternion_multiply,
     quaternion_scale,
@@ -48,6 +49,11 @@ class HalfMotions(NamedTuple):
 
     even: Increment
     odd: Increment
+
+
+def unit(q: Quaternion) -> Quaternion:
+    """Return q / |q|."""
+    return quaternion_scale(1.0 / math.sqrt(quaternion_dot(q, q)), q)
 
 
 def turned(p: Quaternion, w: Vector3) -> Quaternion:
@@ -121,8 +127,7 @@ def increment_of(twists: Twists) -> Increment:
     to_end = quaternion_add(even, odd)
     from_start = quaternion_conjugate(quaternion_add(even, quaternion_scale(-1.0, odd)))
     rotation = quaternion_multiply(from_start, to_end)
-    w, x, y, z = rotation
-    rotation = quaternion_scale(1.0 / math.sqrt(w * w + x * x + y * y + z * z), rotation)
+    rotation = unit(rotation)
     back = rotate_inverse(rotation, subtract(even_shift, odd_shift))
     return Increment(rotation, subtract(add(even_shift, odd_shift), back))
 
@@ -164,9 +169,9 @@ def bracket(momentum: Spatial, delta: Spatial) -> Spatial:
 
 
 def shifted(increment: Increment, turn: Vector3, shift: Vector3) -> Increment:
-    """Return the increment followed by a small turn and shift in its frame, the rotation made unit again."""
+    """Return the increment followed by a small turn and shift in its frame."""
     rotation = quaternion_add(increment.rotation, turned(increment.rotation, scale(0.5, turn)))
-    rotation = quaternion_scale(1.0 - 0.125 * dot(turn, turn), rotation)
+    rotation = quaternion_scale(1.0 / math.sqrt(1.0 + 0.25 * dot(turn, turn)), rotation)
     return Increment(rotation, add(increment.shift, add(cross(increment.shift, turn), shift)))
 
 

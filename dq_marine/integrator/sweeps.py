@@ -15,6 +15,10 @@ MAX_SWEEPS = 60
 ROUND_OFF = 1e-15  # of the size: what the next sweep would change, when sweeps end
 ROUND_OFF_SINGLE = 3e-7  # the same in single precision
 HOPELESS = 1e4  # of the size: sweeps that change more diverge
+SLOWEST = 0.5  # of the squared change, from one sweep to the next: sweeps that shrink it less are not trusted
+LARGEST_TELLTALE = (
+    0.01  # of the size, squared: larger changes are far from the limit in which they tell the error
+)
 OF_THE_ERROR = 0.0015  # see `loose`
 
 Evaluate: TypeAlias = Callable[[Any, Any], Any]
@@ -81,9 +85,11 @@ def make_sweeps(
                 before, last = select(active, last, before), select(active, change, last)
             now = each_stage(weights, kept, (active, new, now))
             if loose and sweep == telling:
-                tolerance = max(tolerance, OF_THE_ERROR**2 * (last * last / size))
+                telltale = min(last, LARGEST_TELLTALE * size)
+                tolerance = max(tolerance, OF_THE_ERROR**2 * (telltale * telltale / size))
             if sweep > telling:
-                done = (last * last <= tolerance * before) | (last <= tolerance)
+                contracts = last <= SLOWEST * before
+                done = (contracts & (last * last <= tolerance * before)) | (last <= tolerance)
                 stagnates = (last <= accepted_squared(last) * size) & (last >= 0.25 * before)
                 converged = converged | (active & (done | stagnates))
                 active = active & negation(converged) & (last <= HOPELESS**2 * size)

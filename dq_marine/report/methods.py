@@ -131,7 +131,7 @@ def own(
     scheme: str = "midpoint",
 ) -> Method:
     """Return one of the product's own methods."""
-    refuse = dissipation if order > 4 else nothing
+    refuse = dissipation if order > 4 and scheme != "gauss" else nothing
     compose = partial(compose_own, scheme, order)
     family: Family = "Gauss" if scheme == "gauss" else "DQVI"
     return Method(name, title, family, order, evaluations, damped_evaluations, compose, refuse)

@@ -15,7 +15,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.actuation import NO_ACTUATION
 from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.integrator.extrapolated import ExtrapolatedTiming, make_extrapolated
-from dq_marine.integrator.forces import Potential
+from dq_marine.integrator.forces import Potential, VelocityForce
 from dq_marine.integrator.gauss import GaussTiming, make_gauss_method
 from dq_marine.integrator.kick import Kick
 from dq_marine.integrator.midpoint_drift import midpoint_drift, midpoint_fallback
@@ -64,10 +64,20 @@ def check_method(scheme: str, order: int) -> None:
 
 
 @functools.cache
-def gauss_composition(strang: Composition, stages: int, potentials: tuple[Potential, ...]) -> Composition:
-    """Return the composition of Gauss's collocation that falls back to a step of another."""
-    method, fallback = make_gauss_method(stages), make_advance(strang)
-    return replace(strang, method=method, fallback=fallback, potentials=potentials)
+def gauss_composition(
+    strang: Composition, stages: int, drag: tuple[VelocityForce, ...], potentials: tuple[Potential, ...]
+) -> Composition:
+    """Return the composition of Gauss's collocation, which falls back to a step of another.
+
+    Damping is the last of its velocity forces: there the other one, whose kick has it, does not find its numbers.
+    """
+    return replace(
+        strang,
+        method=make_gauss_method(stages),
+        velocity_forces=(*strang.velocity_forces, *drag),
+        fallback=make_advance(strang),
+        potentials=potentials,
+    )
 
 
 class Method(NamedTuple):
@@ -137,7 +147,10 @@ class Assembly:
     def composition(self) -> Composition:
         """The functions of the step."""
         if self.scheme == GAUSS:
-            return gauss_composition(self._strang.composition, GAUSS_STAGES[self.order], self._potentials)
+            drag = tuple(force.compiled_form for force in self.damping.drag)
+            return gauss_composition(
+                self._strang.composition, GAUSS_STAGES[self.order], drag, self._potentials
+            )
         drift, fallback = DRIFTS[self.scheme]
         return Composition(
             method=self._method.make,
@@ -152,12 +165,13 @@ class Assembly:
 
     def parameters_at(self, step: float) -> StepParameters:
         """Return the numbers of the step for a step size [s]."""
+        drag = self.damping.drag if self.scheme == GAUSS else ()
         return StepParameters(
             inertia=inertia_term(self.mass_matrix),
             damping=self.damping.matrices,
             forces=(
                 nested_parameters(self._pose_forces(step)),
-                nested_parameters(self._velocity_forces(step)),
+                nested_parameters((*self._velocity_forces(step), *drag)),
             ),
             water=self.water.parameters,
             timing=self._method.timing(step),
@@ -179,11 +193,6 @@ class Assembly:
         Raises:
             InvalidInputError: with the reason.
         """
-        if self.damping.names:
-            raise InvalidInputError(
-                f"scheme = {GAUSS!r}, but there is {', '.join(self.damping.names)}, which it cannot take in; give "
-                'scheme="midpoint" with order 2 or 4, or leave the damping out'
-            )
         if self.water.water not in UNIFORM_WATER:
             raise InvalidInputError(
                 f"scheme = {GAUSS!r}, but the current varies ({self.water.name}); give a uniform and steady current, "
@@ -192,7 +201,9 @@ class Assembly:
 
     @property
     def _potentials(self) -> tuple[Potential, ...]:
-        """Of all forces; none if one force has none."""
+        """Of all forces; none if one force has none, or something damps."""
+        if self.damping.names:
+            return ()
         found = tuple(force.potential for force in self._present(0.0) if force.potential is not None)
         return found if len(found) == len(self._present(0.0)) else ()
 
