@@ -124,7 +124,7 @@ def test_free_bodies_of_any_inertia_keep_momentum_and_energy(seed, condition):
     reach = 1.0 + np.linalg.norm(body.position_ned)
     assert np.abs(body.spatial_momentum - momentum).max() < 1e-12 * reach * np.linalg.norm(momentum)
     if not body.fallback_steps:  # what a step corrects of the energy, it corrects to second order
-        assert body.kinetic_energy == pytest.approx(energy, rel=1e-6)
+        assert body.kinetic_energy == pytest.approx(energy, rel=1e-4)
 
 
 @pytest.mark.parametrize("step", [0.02, 0.1])

@@ -61,7 +61,13 @@ def test_methods_converge_to_the_reference_at_their_order(name, case):
 def test_names_titles_and_families():
     assert all(name == method.name for name, method in METHODS.items())
     assert len({method.title for method in METHODS.values()}) == len(METHODS)
-    assert {method.family for method in METHODS.values()} == {"DQVI", "Runge-Kutta", "Euler", "Lie group"}
+    assert {method.family for method in METHODS.values()} == {
+        "DQVI",
+        "Gauss",
+        "Runge-Kutta",
+        "Euler",
+        "Lie group",
+    }
 
 
 @pytest.mark.parametrize("name", ["dqvi6", "dqvi8"])
