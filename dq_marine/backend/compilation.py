@@ -15,6 +15,7 @@ import numba
 import numpy as np
 from numba.extending import overload, register_jitable
 
+import dq_marine.backend.stages  # noqa: F401  gives compiled code what `algebra.stages` names
 from dq_marine.backend.disk_cache import keep_on_disk
 from dq_marine.backend.garbage import collect_garbage_rarely_while_compiling
 from dq_marine.backend.selection import INLINED, PROVIDED

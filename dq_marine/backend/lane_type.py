@@ -26,18 +26,32 @@ class Lanes(types.Type):
         width: number of lanes.
         precision: the float type of the lanes that this one is computed with.
         fast: whether sums may be reordered and multiply-adds fused.
+        stages: how many stages of a step the lanes hold of each body, see `backend.stages`.
     """
 
-    def __init__(self, dtype: types.Type, width: int, precision: types.Type, fast: bool) -> None:
+    def __init__(
+        self, dtype: types.Type, width: int, precision: types.Type, fast: bool, stages: int = 1
+    ) -> None:
         self.dtype = dtype
         self.width = width
         self.precision = precision
         self.fast = fast
-        super().__init__(name=f"Lanes({dtype}, {width}, {precision}, {'fast' if fast else 'strict'})")
+        self.stages = stages
+        arithmetic = "fast" if fast else "strict"
+        staged = "" if stages == 1 else f", {stages} stages"
+        super().__init__(name=f"Lanes({dtype}, {width}, {precision}, {arithmetic}{staged})")
 
     def of(self, dtype: types.Type) -> Lanes:
         """Return the like lanes of another kind."""
-        return Lanes(dtype, self.width, self.precision, self.fast)
+        return Lanes(dtype, self.width, self.precision, self.fast, self.stages)
+
+    def at_stages(self, count: int) -> Lanes:
+        """Return the lanes that hold several stages of what these hold."""
+        return Lanes(self.dtype, self.width * count, self.precision, self.fast, count)
+
+    def of_one_stage(self) -> Lanes:
+        """Return the lanes that hold one stage of what these hold."""
+        return Lanes(self.dtype, self.width // self.stages, self.precision, self.fast)
 
     def like(self, scalar: types.Type) -> Lanes:
         """Return the lanes that hold a scalar of the given type."""

@@ -23,6 +23,7 @@ from dq_marine.integrator.kick import Kick
 
 PoseForce: TypeAlias = Callable[[Any, DualQuaternion, float], Spatial]
 VelocityForce: TypeAlias = Callable[[Any, DualQuaternion, Spatial, float], Spatial]
+Potential: TypeAlias = Callable[[Any, DualQuaternion], float]
 AddPoseForces: TypeAlias = Callable[[Any, DualQuaternion, float, Spatial], Spatial]
 AddVelocityForces: TypeAlias = Callable[[Any, DualQuaternion, Spatial, float, Spatial], Spatial]
 ForcedKick: TypeAlias = Callable[[Any, Any, Inertia, Any, DualQuaternion, Spatial, float, Spatial], Spatial]
@@ -50,6 +51,23 @@ def join_pose_forces(forces: tuple[PoseForce, ...]) -> AddPoseForces:
         return add_pose_forces
 
     return folded(link, forces, no_pose_force)
+
+
+def no_potential(parameters: Any, pose: DualQuaternion) -> float:
+    """Return zero."""
+    return 0.0
+
+
+def join_potentials(potentials: tuple[Potential, ...]) -> Potential:
+    """Return (parameters, pose) -> the sum of all potential energies [J]."""
+
+    def link(first: Potential, rest: Potential) -> Potential:
+        def add_potentials(parameters: Any, pose: DualQuaternion) -> float:
+            return first(parameters[0], pose) + rest(parameters[1], pose)
+
+        return add_potentials
+
+    return folded(link, potentials, no_potential)
 
 
 def join_velocity_forces(forces: tuple[VelocityForce, ...]) -> AddVelocityForces:

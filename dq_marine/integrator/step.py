@@ -21,7 +21,7 @@ from dq_marine.integrator.actuation import NO_ACTUATION, Actuation
 from dq_marine.integrator.body import BodyState, Motion
 from dq_marine.integrator.drift import Drift
 from dq_marine.integrator.drift_report import DriftReport, drift_accepted, equation_met
-from dq_marine.integrator.forces import PoseForce, VelocityForce
+from dq_marine.integrator.forces import PoseForce, Potential, VelocityForce
 from dq_marine.integrator.inertia import Inertia, momentum_from_twist, twist_from_momentum
 from dq_marine.integrator.kick import Kick
 from dq_marine.integrator.water import Water
@@ -51,9 +51,10 @@ class Composition:
         velocity_forces: wrenches that depend on velocity too, apart from damping.
         kick: momentum change at frozen pose, (parameters, damping, inertia, momentum, wrench) -> momentum.
         drift: force-free motion, (inertia, h, pose, momentum) -> (pose, momentum, report).
-        fallback: the same for a step that `drift` does not solve.
+        fallback: the same for a step that `drift` does not solve; of a method that needs no drift, an advance.
         water: what moving water does.
         actuation: the vehicle's actuators; their force is the first of its list. None, unless a scene has them.
+        potentials: of the pose forces, if all forces of the scene have one and the method makes use of them.
     """
 
     method: Callable[[Composition], Advance]
@@ -61,9 +62,10 @@ class Composition:
     velocity_forces: tuple[VelocityForce, ...]
     kick: Kick
     drift: Drift
-    fallback: Drift
+    fallback: Any
     water: Water
     actuation: Actuation = NO_ACTUATION
+    potentials: tuple[Potential, ...] = ()
 
 
 class StepParameters(NamedTuple):

@@ -29,6 +29,8 @@ class ForceTerm(NamedTuple):
         branches: whether the function asks `if`, `and`, `or`, `not`, `min` or `max` of a number that is a body's own. A
             batch then calls it for one body at a time, which is slower than lanes; `dq_marine.algebra.selection` has
             what lanes can do instead.
+        potential: of a force that has one, `(parameters, pose) -> energy` [J], whose negative gradient the force is.
+            Gauss's collocation then keeps the energy exactly.
     """
 
     name: str
@@ -36,6 +38,7 @@ class ForceTerm(NamedTuple):
     parameters: Any
     uses_velocity: bool = False
     branches: bool = False
+    potential: Callable[..., float] | None = None
 
     @property
     def compiled_form(self) -> Callable[..., Spatial]:

@@ -62,3 +62,11 @@ def waterplane(term: Waterplane, pose: DualQuaternion, time: float) -> Spatial:
     x, y = term.pitch * d[0] - term.heave_pitch * z, term.roll * d[1]
     down = term.heave_pitch * d[0] - term.heave * z
     return Spatial((-d[2] * y, d[2] * x, d[0] * y - d[1] * x), scale(down, d))
+
+
+def waterplane_potential(term: Waterplane, pose: DualQuaternion) -> float:
+    """Return V of `waterplane` [J]."""
+    d = world_down_in_body(pose.real)
+    z = pose_position(pose)[2]
+    heaving = 0.5 * term.heave * z * z - term.heave_pitch * z * d[0]
+    return heaving + 0.5 * (term.pitch * d[0] * d[0] + term.roll * d[1] * d[1])

@@ -13,7 +13,13 @@ from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.spatial import from_fossen
 from dq_marine.physics.term import ForceTerm
 from dq_marine.report.case_bodies import SUPPLY_VESSEL_RESTORING, Rexrov, remus_100, supply_vessel
-from dq_marine.report.case_forces import Oscillation, Waterplane, oscillation, waterplane
+from dq_marine.report.case_forces import (
+    Oscillation,
+    Waterplane,
+    oscillation,
+    waterplane,
+    waterplane_potential,
+)
 from dq_marine.report.closed_forms import BroadsideTurn, FreeTop
 from dq_marine.report.end_state import EndState
 from dq_marine.report.physics import Physics
@@ -211,7 +217,8 @@ def damped_bluerov2(times: int = 1) -> Case:
 
 def ship_restoring() -> Case:
     """Return the supply vessel, under way and rocking."""
-    term = ForceTerm("waterplane", waterplane, Waterplane(*SUPPLY_VESSEL_RESTORING))
+    restoring = Waterplane(*SUPPLY_VESSEL_RESTORING)
+    term = ForceTerm("waterplane", waterplane, restoring, potential=waterplane_potential)
     physics = Physics(supply_vessel(), forces=(term,))
     note = (
         "A force that depends on the position: the restoring of a ship's waterplane. Natural frequencies 0.62 (roll), "

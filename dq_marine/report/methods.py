@@ -25,7 +25,7 @@ from dq_marine.report.physics import Physics
 from dq_marine.simulation.assembly import Assembly
 from dq_marine.simulation.one_body import OneBody
 
-Family: TypeAlias = Literal["DQVI", "Runge-Kutta", "Euler", "Lie group"]
+Family: TypeAlias = Literal["DQVI", "Gauss", "Runge-Kutta", "Euler", "Lie group"]
 
 
 @dataclass(frozen=True)
@@ -131,9 +131,10 @@ def own(
     scheme: str = "midpoint",
 ) -> Method:
     """Return one of the product's own methods."""
-    refuse = dissipation if order > 4 else nothing
+    refuse = dissipation if order > 4 and scheme != "gauss" else nothing
     compose = partial(compose_own, scheme, order)
-    return Method(name, title, "DQVI", order, evaluations, damped_evaluations, compose, refuse)
+    family: Family = "Gauss" if scheme == "gauss" else "DQVI"
+    return Method(name, title, family, order, evaluations, damped_evaluations, compose, refuse)
 
 
 def baseline(
@@ -159,6 +160,7 @@ METHODS = {
         own("dqvi4", "DQVI, order 4", 4, 5, 5),
         own("dqvi6", "DQVI, order 6", 6, 9, 9),
         own("dqvi8", "DQVI, order 8", 8, 17, 17),
+        own("gauss8", "Gauss on the momentum, order 8", 8, 41, 41, scheme="gauss"),
         baseline("rk4_quaternion", "RK4, quaternion", "Runge-Kutta", 4, 4, make_rk4_quaternion),
         baseline("rk4_euler", "RK4, Euler angles", "Runge-Kutta", 4, 4, make_rk4_euler),
         baseline("semi_implicit_euler", "Semi-implicit Euler", "Euler", 1, 1, make_semi_implicit_euler),

@@ -6,7 +6,7 @@ from dq_marine.report.cases import CASES
 from dq_marine.report.libraries import LIBRARIES
 from dq_marine.report.methods import METHODS
 
-OWN = tuple(name for name, method in METHODS.items() if method.family == "DQVI")
+OWN = tuple(name for name, method in METHODS.items() if method.family in ("DQVI", "Gauss"))
 """This package's own methods."""
 
 

@@ -56,6 +56,8 @@ CASES = {
     "order 6, paper": {"order": 6, "scheme": "paper", "current": CURRENT, **GRAVITY},
     "order 4, forces": {"order": 4, "forces": FORCES},
     "implicit node": {"l_stable": False, "linear": LINEAR, "quadratic": QUADRATIC},
+    "gauss, free": {"order": 8, "scheme": "gauss", "current": CURRENT},
+    "gauss, forces": {"order": 8, "scheme": "gauss", "forces": FORCES[:2], **GRAVITY},
 }
 
 PLAIN_CASES = ("inertia alone", "order 4, forces")

@@ -9,7 +9,7 @@ from typing import Any
 
 from numba import types
 
-import dq_marine.backend.simd.arithmetic  # noqa: F401  teaches Numba to compute with lanes
+import dq_marine.backend.lane_arithmetic  # noqa: F401  teaches Numba to compute with lanes
 from dq_marine.algebra.spatial import from_fossen
 from dq_marine.backend.compilation import compile_function
 from dq_marine.backend.lane_type import Lanes

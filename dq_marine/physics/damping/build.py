@@ -34,7 +34,9 @@ from dq_marine.physics.damping.formulas.coupled import (
 )
 from dq_marine.physics.damping.formulas.cross_flow import StripRow
 from dq_marine.physics.damping.formulas.diagonal import DIAGONAL, FULL, DiagonalDamping, FullDamping
+from dq_marine.physics.damping.formulas.drag import make_drag
 from dq_marine.physics.matrices import Array, angular_first, matrix6, spatial
+from dq_marine.physics.term import ForceTerm
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
@@ -131,6 +133,14 @@ class DampingTerm(NamedTuple):
             return own
         present = [float(self.couplings[indices]) for indices in self._coupling_indices]
         return CoupledDamping(own, nested(present), nested([strips.row for strips in self.strips]))
+
+    @property
+    def drag(self) -> tuple[ForceTerm, ...]:
+        """The same damping as a force; none without damping."""
+        if not self.names:
+            return ()
+        matrices = self._replace(l_stable=False).matrices
+        return (ForceTerm(self.names[0], make_drag(self._algebra), matrices, uses_velocity=True),)
 
     @property
     def _grows(self) -> bool:

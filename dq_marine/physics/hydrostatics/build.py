@@ -14,7 +14,9 @@ from dq_marine.physics.hydrostatics.formulas.submerged import (
     NetWeight,
     RightingMoment,
     net_weight,
+    net_weight_potential,
     righting_moment,
+    righting_potential,
 )
 from dq_marine.physics.hydrostatics.formulas.waterplane import (
     WaterplaneRestoring,
@@ -126,7 +128,9 @@ def restoring_terms(excess_weight: float, arm: Array) -> tuple[ForceTerm, ...]:
     """
     terms: list[ForceTerm] = []
     if excess_weight != 0.0:
-        terms.append(ForceTerm("net weight", net_weight, NetWeight(excess_weight)))
+        weight = NetWeight(excess_weight)
+        terms.append(ForceTerm("net weight", net_weight, weight, potential=net_weight_potential))
     if arm.any():
-        terms.append(ForceTerm("righting moment", righting_moment, RightingMoment(vector3(arm))))
+        moment = RightingMoment(vector3(arm))
+        terms.append(ForceTerm("righting moment", righting_moment, moment, potential=righting_potential))
     return tuple(terms)

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from dq_marine.algebra.dual_quaternion import DualQuaternion
+from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_position
 from dq_marine.algebra.quaternion import world_down_in_body
 from dq_marine.algebra.spatial import Spatial
-from dq_marine.algebra.vector3 import Vector3, cross, scale
+from dq_marine.algebra.vector3 import Vector3, cross, dot, scale
 
 
 class NetWeight(NamedTuple):
@@ -35,3 +35,13 @@ def net_weight(term: NetWeight, pose: DualQuaternion, time: float) -> Spatial:
 def righting_moment(term: RightingMoment, pose: DualQuaternion, time: float) -> Spatial:
     """Return the moment (W r_G - B r_B) x d, d the body-frame direction of down."""
     return Spatial(cross(term.arm, world_down_in_body(pose.real)), (0.0, 0.0, 0.0))
+
+
+def net_weight_potential(term: NetWeight, pose: DualQuaternion) -> float:
+    """Return -(W - B) z [J], z the depth of the body origin."""
+    return -term.force * pose_position(pose)[2]
+
+
+def righting_potential(term: RightingMoment, pose: DualQuaternion) -> float:
+    """Return -(W r_G - B r_B) . d [J]."""
+    return -dot(term.arm, world_down_in_body(pose.real))

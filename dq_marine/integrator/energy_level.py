@@ -1,0 +1,29 @@
+"""A small motion that restores the energy which a step should have kept."""
+
+from __future__ import annotations
+
+from dq_marine.algebra.selection import smallest_normal
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.vector3 import scale
+from dq_marine.integrator.gauss_stages import weighted_square
+
+STEADY = 1e-8
+"""Of the energy's square: below this the square of the momentum's rate counts as zero."""
+
+
+def levelling(length_squared: float, rate: Spatial, excess: float, energy: float) -> Spatial:
+    """Return the smallest turn and shift delta of the body frame that take away an excess of energy (G10).
+
+    A motion delta that carries the momentum along changes the energy by -rate . delta, where rate is that of the
+    momentum, forces included. Where the momentum hardly changes, energy hardly depends on delta, and round-off counts
+    more than what is to be corrected.
+
+    Args:
+        length_squared: how turns and shifts compare [m^2].
+        rate: of the momentum.
+        excess: of energy.
+        energy: what round-off is compared with.
+    """
+    steepness = weighted_square(length_squared, rate) + STEADY * energy * energy + smallest_normal(energy)
+    gain = excess / steepness
+    return Spatial(scale(gain, rate.angular), scale(gain * length_squared, rate.linear))

@@ -1,0 +1,113 @@
+"""Gauss's collocation for whole scenes: order 8 for smooth forces, exact in the momentum that they leave alone.
+
+Without forces a call is steps of free motion, four at a time (`gauss_drift`); with forces, steps with forces at the
+stages (`gauss_forced`). A step whose sweeps do not converge is taken by the composition's fallback, a step of
+Strang's method, and counted. Gauss's collocation on the momentum keeps energy, momentum and Casimirs of free bodies. It
+is not variational.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from dq_marine.algebra.selection import negation, select, some
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.collocation import gauss
+from dq_marine.integrator.gauss_drift import make_gauss_four
+from dq_marine.integrator.gauss_forced import make_forced_step
+from dq_marine.integrator.rescue import Stepped, make_take, solved, usable
+from dq_marine.integrator.step import (
+    Advance,
+    Composition,
+    StepOutcome,
+    StepParameters,
+    arrival,
+    set_out,
+)
+
+BATCH = 4
+"""Free steps whose motions are found side by side."""
+
+
+class GaussTiming(NamedTuple):
+    """Step size [s], and the timing of the fallback's method for it."""
+
+    h: float
+    fallback: Any
+
+
+def is_zero(wrench: Spatial) -> bool:
+    """Whether nothing pushes."""
+    m, f = wrench.angular, wrench.linear
+    return (m[0] == 0.0) & (m[1] == 0.0) & (m[2] == 0.0) & (f[0] == 0.0) & (f[1] == 0.0) & (f[2] == 0.0)
+
+
+def make_unforced(composition: Composition, stages: int) -> Advance:
+    """Return the advance of a scene without forces of its own.
+
+    The bodies that no wrench pushes try four steps at once. All others, those for which that fails, and the steps that
+    are left over go one by one.
+    """
+    four, arrive = make_gauss_four(stages), composition.water.arrive
+    take = make_take(make_forced_step(composition, gauss(stages)), composition.fallback)
+
+    def unforced(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        inertia, h = parameters.inertia, parameters.timing.h
+        now = Stepped(state.pose, state.momentum, set_out(state))
+        unpushed = is_zero(wrench)
+        done = 0
+        while done < steps and some(now.progress.under_way):
+            count = min(BATCH, steps - done)
+            singly = now.progress.under_way
+            if count == BATCH and some(unpushed & now.progress.under_way):
+                node = time + done * h
+                pose, momentum, report = four(inertia, h, now.pose, now.momentum)
+                pose = arrive(parameters.water, inertia, node, BATCH * h, pose, momentum).pose
+                fine = unpushed & now.progress.under_way & usable(report)
+                now = Stepped(
+                    select(fine, pose, now.pose),
+                    select(fine, momentum, now.momentum),
+                    solved(now.progress, fine, report, BATCH),
+                )
+                singly = singly & negation(fine)
+            if some(singly):
+                for step in range(count):
+                    now = take(parameters, wrench, time + (done + step) * h, h, now, singly)
+            done += count
+        return arrival(state, now.pose, now.momentum, now.progress)
+
+    return unforced
+
+
+def make_forced(composition: Composition, stages: int) -> Advance:
+    """Return the advance of a scene with forces."""
+    take = make_take(make_forced_step(composition, gauss(stages)), composition.fallback)
+
+    def forced(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        h = parameters.timing.h
+        now = Stepped(state.pose, state.momentum, set_out(state))
+        for step in range(steps):
+            now = take(parameters, wrench, time + step * h, h, now, now.progress.under_way)
+            if not some(now.progress.under_way):
+                break
+        return arrival(state, now.pose, now.momentum, now.progress)
+
+    return forced
+
+
+@functools.cache
+def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
+    """Return the method of order 2 x stages: (composition) -> advance."""
+
+    def make_gauss(composition: Composition) -> Advance:
+        forces = composition.pose_forces or composition.velocity_forces
+        return (make_forced if forces else make_unforced)(composition, stages)
+
+    return make_gauss

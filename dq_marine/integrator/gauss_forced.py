@@ -1,0 +1,291 @@
+"""One step of a body with forces, by Gauss's collocation on momentum, attitude and position.
+
+With c = h mu, W = M^-1 and the forces F at the stages (docs/theory.md, eqs. G1, G3 and G7-G9)
+
+    K_i = ad*_(W y_i) y_i + h^2 F(p_i, chi_i, t_i)                                                   (G7)
+    q_i = q + sum_j A_ij q_j (0, omega_j)/2,   x_i = x + sum_j A_ij q_j v_j q_j*,   [omega; v] = W y (G8)
+    J = sum_i b_i [R_i m_i + (x_i - x) x R_i f_i; R_i f_i],   [m; f] = h^2 F                         (G9)
+
+J is what the forces add to the spatial momentum. The pose is made consistent with both: the old spatial momentum and J
+are what the new pose carries to the new body momentum c'. What a force leaves alone, such as the momentum about
+the vertical under weight and buoyancy, is therefore exact to round-off.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
+
+from dq_marine.algebra.dual_quaternion import (
+    DualQuaternion,
+    dual_multiply,
+    pose_from_parts,
+    pose_position,
+    pose_renormalise,
+)
+from dq_marine.algebra.frames import momentum_bracket
+from dq_marine.algebra.quaternion import (
+    Quaternion,
+    quaternion_add,
+    quaternion_conjugate,
+    quaternion_dot,
+    quaternion_multiply,
+    quaternion_scale,
+    rotate,
+    rotate_inverse,
+)
+from dq_marine.algebra.selection import smallest_normal, spread
+from dq_marine.algebra.spatial import (
+    Spatial,
+    quadratic_form,
+    spatial_add,
+    spatial_add_scaled,
+    spatial_dot,
+    spatial_scale,
+)
+from dq_marine.algebra.stages import each_stage, stage_constants, stage_sum
+from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale
+from dq_marine.integrator.collocation import Collocation
+from dq_marine.integrator.drift import transport_momentum
+from dq_marine.integrator.drift_report import DriftReport
+from dq_marine.integrator.energy_level import levelling
+from dq_marine.integrator.forces import join_pose_forces, join_potentials, join_velocity_forces
+from dq_marine.integrator.gauss_stages import squared_length, weighted_square
+from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, turned, unit
+from dq_marine.integrator.inertia import twist_from_momentum
+from dq_marine.integrator.step import Composition, StepParameters
+from dq_marine.integrator.sweeps import make_sweeps
+
+
+class Place(NamedTuple):
+    """What is integrated: c = h mu, the attitude, and the way since the step's start in world axes [m]."""
+
+    momentum: Spatial
+    attitude: Quaternion
+    way: Vector3
+
+
+class ForcedStage(NamedTuple):
+    """One evaluation of (G7) and of the rates in (G8): these, h^2 F, h times the twist, and where it was made."""
+
+    rate: Place
+    wrench: Spatial
+    twist: Spatial
+    attitude: Quaternion
+    way: Vector3
+
+
+class Surroundings(NamedTuple):
+    """What the rates depend on besides where the body is.
+
+    Attributes:
+        parameters: of the step.
+        length_squared: see `gauss_stages.squared_length`.
+        size: the square of the momentum that changes are compared with.
+        h: step size [s].
+        position: at the step's start [m].
+        wrench: constant, body frame.
+        time: of the stage [s].
+        elapsed: since the step's start [s].
+    """
+
+    parameters: StepParameters
+    length_squared: float
+    size: float
+    h: float
+    position: Vector3
+    wrench: Spatial
+    time: float
+    elapsed: float
+
+
+ForcedStep: TypeAlias = Callable[
+    [StepParameters, float, float, DualQuaternion, Spatial, Spatial],
+    tuple[DualQuaternion, Spatial, DriftReport],
+]
+
+
+def moved_place(place: Place, s: float, rate: Place) -> Place:
+    """Return place + s rate."""
+    return Place(
+        spatial_add_scaled(place.momentum, s, rate.momentum),
+        quaternion_add(place.attitude, quaternion_scale(s, rate.attitude)),
+        add_scaled(place.way, s, rate.way),
+    )
+
+
+def place_extent(around: Surroundings, rate: Place) -> float:
+    """Return the square of the size of a rate; ways follow from the rest, or show in the forces."""
+    turning = around.size * quaternion_dot(rate.attitude, rate.attitude)
+    return weighted_square(around.length_squared, rate.momentum) + turning
+
+
+def turned_to_world(q: Quaternion, a: Vector3) -> Vector3:
+    """Return R a, R the rotation of a q of any length near 1: stages keep the length only to their own order."""
+    axis = (q[1], q[2], q[3])
+    turn = add(scale(q[0], cross(axis, a)), cross(axis, cross(axis, a)))
+    return add_scaled(a, 2.0 / quaternion_dot(q, q), turn)
+
+
+def impulse(stage: ForcedStage) -> Spatial:
+    """Return a stage's h^2 F in world axes, about the step's start (G9)."""
+    force = turned_to_world(stage.attitude, stage.wrench.linear)
+    moment = turned_to_world(stage.attitude, stage.wrench.angular)
+    return Spatial(add(moment, cross(stage.way, force)), force)
+
+
+def make_forces(composition: Composition) -> Callable[[Surroundings, Place, Spatial], Spatial]:
+    """Return (surroundings, place, h times the twist) -> all forces on the body."""
+    add_pose_forces = join_pose_forces(composition.pose_forces)
+    add_velocity_forces = join_velocity_forces(composition.velocity_forces)
+    arrive = composition.water.arrive
+
+    def forces_at(around: Surroundings, place: Place, twist: Spatial) -> Spatial:
+        parameters, time = around.parameters, around.time
+        pose = pose_from_parts(place.attitude, add(around.position, place.way))
+        start = place.momentum
+        pose = arrive(parameters.water, parameters.inertia, time, around.elapsed, pose, start).pose
+        posed = add_pose_forces(parameters.forces[0], pose, time, around.wrench)
+        chi = spatial_scale(1.0 / around.h, twist)
+        return add_velocity_forces(parameters.forces[1], pose, chi, time, posed)
+
+    return forces_at
+
+
+def make_landing(composition: Composition) -> Callable[..., Increment]:
+    """Return (surroundings, start, pose, increment, momentum it carries, work) -> the increment, levelled (G10).
+
+    Where all forces of the scene have potentials, kinetic and potential energy together change by the work of
+    the constant wrench alone, as they should. Elsewhere the increment is left as it is.
+    """
+    if composition.velocity_forces or len(composition.potentials) < len(composition.pose_forces):
+
+        def left_alone(
+            around: Surroundings,
+            start: Place,
+            pose: DualQuaternion,
+            increment: Increment,
+            pushed: Spatial,
+            work: float,
+        ) -> Increment:
+            return increment
+
+        return left_alone
+    potential = join_potentials(composition.potentials)
+    add_pose_forces = join_pose_forces(composition.pose_forces)
+    arrive = composition.water.arrive
+
+    def levelled(
+        around: Surroundings,
+        start: Place,
+        pose: DualQuaternion,
+        increment: Increment,
+        pushed: Spatial,
+        work: float,
+    ) -> Increment:
+        parameters, square = around.parameters, around.h * around.h
+        inertia, forces = parameters.inertia, parameters.forces[0]
+        reached = pose_renormalise(dual_multiply(pose, as_pose(increment)))
+        momentum = carried(increment, pushed)
+        twist = twist_from_momentum(inertia, momentum)
+        had = 0.5 * quadratic_form(inertia.inverse, start.momentum)
+        has = 0.5 * spatial_dot(twist, momentum)
+        gained = potential(forces, reached) - potential(forces, pose) - work
+        there = arrive(parameters.water, inertia, around.time, around.h, reached, momentum).pose
+        force = add_pose_forces(forces, there, around.time + around.h, around.wrench)
+        rate = spatial_add_scaled(momentum_bracket(twist, momentum), square, force)
+        excess = (has - had) + square * gained
+        delta = levelling(around.length_squared, rate, excess, around.size)
+        return shifted(increment, delta.angular, delta.linear)
+
+    return levelled
+
+
+def make_forced_step(composition: Composition, method: Collocation) -> ForcedStep:
+    """Return (parameters, time, h, pose, momentum, wrench) -> (pose, momentum, report): one step of order 2s."""
+    forces_at, land = make_forces(composition), make_landing(composition)
+    arrive = composition.water.arrive
+    weights, nodes = method.weights, method.nodes
+
+    def evaluate(around: Surroundings, place: Place) -> ForcedStage:
+        twist = twist_from_momentum(around.parameters.inertia, place.momentum)
+        wrench = spatial_scale(around.h * around.h, forces_at(around, place, twist))
+        rate = Place(
+            spatial_add(momentum_bracket(twist, place.momentum), wrench),  # (G7)
+            turned(place.attitude, scale(0.5, twist.angular)),  # (G8)
+            rotate(place.attitude, twist.linear),
+        )
+        return ForcedStage(rate, wrench, twist, place.attitude, place.way)
+
+    sweeps = make_sweeps(method, evaluate, moved_place, place_extent, loose=True)
+
+    def forced_step(
+        parameters: StepParameters,
+        time: float,
+        h: float,
+        pose: DualQuaternion,
+        momentum: Spatial,
+        wrench: Spatial,
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        inertia = parameters.inertia
+        like = momentum.linear[0]
+        length_squared = squared_length(inertia)
+        start = Place(spatial_scale(h, momentum), pose.real, spread((0.0, 0.0, 0.0), like))
+        position = pose_position(pose)
+        at_start = Surroundings(parameters, length_squared, like, h, position, wrench, time, 0.0)
+        begun = evaluate(at_start, start)
+        size = weighted_square(length_squared, start.momentum)
+        size = size + weighted_square(length_squared, begun.wrench) + smallest_normal(like)
+        elapsed = each_stage(nodes, multiplied, (h, stage_constants(nodes, like)))
+        times = each_stage(nodes, added, (time, elapsed))
+        around = Surroundings(parameters, length_squared, size, h, position, wrench, times, elapsed)
+        found, report = sweeps(around, start, begun, size)
+        end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
+        given = stage_sum(weights, each_stage(weights, impulse, (found,)))  # (G9)
+        work = spatial_dot(wrench, stage_sum(weights, found.twist))
+        pushed = spatial_add(start.momentum, to_body(pose.real, given))
+        increment = consistent_twice(math.sqrt(length_squared), motion(start, end), pushed, end.momentum)
+        energy = 0.5 * quadratic_form(inertia.inverse, start.momentum)
+        ending = Surroundings(parameters, length_squared, energy, h, position, wrench, time, h)
+        increment = land(ending, start, pose, increment, pushed, work)
+        step = as_pose(increment)
+        after = pose_renormalise(dual_multiply(pose, step))
+        impulsive = spatial_add_scaled(momentum, 1.0 / h, to_body(pose.real, given))
+        given_on = transport_momentum(pose.real, after.real, pose_position(step), impulsive)
+        after = arrive(parameters.water, inertia, time, h, after, given_on).pose
+        return after, given_on, DriftReport(report, spread(True, like))
+
+    return forced_step
+
+
+def follow(start: Place, change: Place) -> Place:
+    """Return start + change."""
+    return moved_place(start, 1.0, change)
+
+
+def to_body(q: Quaternion, momentum: Spatial) -> Spatial:
+    """Return a momentum about the body's origin, in its axes."""
+    return Spatial(rotate_inverse(q, momentum.angular), rotate_inverse(q, momentum.linear))
+
+
+def motion(start: Place, end: Place) -> Increment:
+    """Return the motion from one place to another."""
+    attitude = unit(end.attitude)
+    rotation = quaternion_multiply(quaternion_conjugate(start.attitude), attitude)
+    return Increment(rotation, rotate_inverse(attitude, end.way))
+
+
+def consistent_twice(length: float, increment: Increment, before: Spatial, after: Spatial) -> Increment:
+    """Return the increment that carries one momentum to another: two steps of Newton's method (G6)."""
+    return consistent(length, consistent(length, increment, before, after), before, after)
+
+
+def multiplied(a: float, b: float) -> float:
+    """Return a b."""
+    return a * b
+
+
+def added(a: float, b: float) -> float:
+    """Return a + b."""
+    return a + b
