@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
-from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.spatial import Spatial, spatial_scale
+
+Drag: TypeAlias = Callable[[Any, Spatial], Spatial]
+"""(damping matrices, twist) -> the wrench of damping."""
 
 
 class DampingAlgebra(NamedTuple):
@@ -24,3 +28,14 @@ class DampingAlgebra(NamedTuple):
     apply: Callable[..., Any]
     add_scaled: Callable[..., Any]
     sandwich: Callable[..., Any]
+
+
+@functools.cache
+def make_drag(algebra: DampingAlgebra) -> Drag:
+    """Return damping as a force, -D(chi) chi, for methods that take it in like any other."""
+    damping_at, damping_apply = algebra.at, algebra.apply
+
+    def drag(damping: Any, twist: Spatial) -> Spatial:
+        return spatial_scale(-1.0, damping_apply(damping_at(damping, twist), twist))
+
+    return drag

@@ -14,6 +14,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.actuation import NO_ACTUATION
 from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.integrator.extrapolated import ExtrapolatedTiming, make_extrapolated
+from dq_marine.integrator.galerkin import PIECES, GalerkinTiming, make_galerkin
 from dq_marine.integrator.kick import Kick
 from dq_marine.integrator.midpoint_drift import midpoint_drift, midpoint_fallback
 from dq_marine.integrator.paper_drift import paper_drift, paper_fallback
@@ -21,12 +22,17 @@ from dq_marine.integrator.richardson import RichardsonTiming, make_richardson
 from dq_marine.integrator.step import Advance, Composition, StepParameters
 from dq_marine.integrator.strang import make_strang
 from dq_marine.physics.actuators.build import ActuationTerm
+from dq_marine.physics.current.formulas.uniform import MOVING_WATER, STILL_WATER
 from dq_marine.physics.damping.build import DampingTerm
 from dq_marine.physics.matrices import inertia_term
 from dq_marine.physics.term import ForceTerm, WaterTerm, nested_parameters
 
-SCHEMES = {"midpoint": (midpoint_drift, midpoint_fallback), "paper": (paper_drift, paper_fallback)}
-"""Schemes by name: the drift, and its fallback."""
+SCHEMES = {
+    "midpoint": (midpoint_drift, midpoint_fallback),
+    "paper": (paper_drift, paper_fallback),
+    "galerkin": (midpoint_drift, midpoint_fallback),
+}
+"""Schemes by name: the drift, and its fallback. Galerkin's own step of order 2 is the midpoint scheme's."""
 
 ORDERS = (2, *STAGES)
 """Orders that a method may have."""
@@ -85,6 +91,13 @@ class Assembly:
             InvalidInputError: with the reason.
         """
         check_method(self.scheme, self.order)
+        if self._is_galerkin:
+            if self.water.water not in (STILL_WATER, MOVING_WATER):
+                raise InvalidInputError(
+                    f'scheme = "galerkin" has no order {self.order} in {self.water.name}, which it would take in with '
+                    'order 2; give scheme = "midpoint", or a uniform, constant current'
+                )
+            return
         if self.order > 4 and self.dissipation:
             raise InvalidInputError(
                 f"order = {self.order}, but there is {self.dissipation}: orders above 4 take negative stages, which "
@@ -142,8 +155,18 @@ class Assembly:
         return tuple(force for force in self._present(step) if force.uses_velocity)
 
     @property
+    def _is_galerkin(self) -> bool:
+        return self.scheme == "galerkin" and self.order > 2
+
+    @property
     def _method(self) -> Method:
         damping = self.damping
+        if self._is_galerkin:
+            return Method(
+                make_galerkin(self.order, damping.drag),
+                damping.kick,
+                lambda h: GalerkinTiming(h, damping.drag_matrices, damping.timing(h / PIECES)),
+            )
         if self.order == 2:
             return Method(make_strang, damping.kick, damping.timing)
         if not self.dissipation:

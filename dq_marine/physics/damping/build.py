@@ -9,7 +9,7 @@ import numpy as np
 
 from dq_marine.algebra.nesting import nested
 from dq_marine.algebra.spatial import ANGULAR_FIRST
-from dq_marine.integrator.damping import DampingAlgebra
+from dq_marine.integrator.damping import DampingAlgebra, Drag, make_drag
 from dq_marine.integrator.kick import (
     Kick,
     LinearKick,
@@ -107,6 +107,16 @@ class DampingTerm(NamedTuple):
         if not self.l_stable or not self._grows:
             return self.kick
         return make_rosenbrock_kick(self._algebra)
+
+    @property
+    def drag(self) -> Drag | None:
+        """Damping as a force like any other, (matrices, twist) -> wrench; None without damping."""
+        return make_drag(self._algebra) if self.names else None
+
+    @property
+    def drag_matrices(self) -> DiagonalDamping | FullDamping | CoupledDamping | tuple[()]:
+        """What `drag` is handed."""
+        return self._replace(l_stable=False).matrices
 
     def timing(self, step: float) -> StrangTiming:
         """Return what Strang's method needs to know of a step size [s]."""

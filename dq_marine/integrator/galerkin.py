@@ -1,0 +1,140 @@
+"""The Galerkin variational integrators as a method: orders 4, 6 and 8 with any number of steps, forces and damping.
+
+A step whose sweeps do not converge is rescued: it is taken in pieces by Strang's method with the midpoint drift, whose
+kick is stable under any damping, and counted as a fallback.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from dq_marine.algebra.dual_quaternion import DualQuaternion
+from dq_marine.algebra.selection import negation, select, select_call, some
+from dq_marine.algebra.spatial import Spatial, spatial_add, spatial_dot
+from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.collocation import gauss
+from dq_marine.integrator.damping import Drag
+from dq_marine.integrator.drift_report import DriftReport, SolverReport, drift_accepted
+from dq_marine.integrator.forces import join_pose_forces, join_velocity_forces
+from dq_marine.integrator.galerkin_drift import make_galerkin_drift
+from dq_marine.integrator.galerkin_forced import Wrench, make_forced_step
+from dq_marine.integrator.step import (
+    ACCEPTED,
+    ENERGY_NOT_KEPT,
+    WRONG_BRANCH,
+    Advance,
+    Composition,
+    Flown,
+    StepOutcome,
+    StepParameters,
+    arrival,
+    progress_by_step,
+    progress_with,
+    set_out,
+)
+from dq_marine.integrator.strang import StrangTiming, make_strang
+
+PIECES = 8
+"""Of a step that is rescued."""
+
+
+class GalerkinTiming(NamedTuple):
+    """Step size [s], damping as a force, and Strang's timing for a piece of a rescued step."""
+
+    h: float
+    damping: Any
+    piece: StrangTiming
+
+
+def make_wrench(composition: Composition, drag: Drag | None) -> Wrench:
+    """Return (parameters, pose, twist, time, wrench) -> the sum of all forces on a body."""
+    add_pose_forces = join_pose_forces(composition.pose_forces)
+    add_velocity_forces = join_velocity_forces(composition.velocity_forces)
+
+    def undamped(
+        parameters: StepParameters, pose: DualQuaternion, twist: Spatial, time: float, wrench: Spatial
+    ) -> Spatial:
+        posed = add_pose_forces(parameters.forces[0], pose, time, wrench)
+        return add_velocity_forces(parameters.forces[1], pose, twist, time, posed)
+
+    if drag is None:
+        return undamped
+
+    def damped(
+        parameters: StepParameters, pose: DualQuaternion, twist: Spatial, time: float, wrench: Spatial
+    ) -> Spatial:
+        slowed = spatial_add(wrench, drag(parameters.timing.damping, twist))
+        return undamped(parameters, pose, twist, time, slowed)
+
+    return damped
+
+
+def make_rescue(composition: Composition) -> Callable[..., tuple[DualQuaternion, Spatial, DriftReport]]:
+    """Return (parameters, pose, momentum, time, wrench) -> a step in pieces by Strang's method."""
+    strang = make_strang(composition)
+
+    def rescue(
+        parameters: StepParameters, pose: DualQuaternion, momentum: Spatial, time: float, wrench: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        inertia, damping, forces, water, timing = parameters
+        timed = StepParameters(inertia, damping, forces, water, timing.piece)
+        outcome = strang(timed, BodyState(pose, momentum), wrench, time, PIECES)
+        on_branch = outcome.status != WRONG_BRANCH
+        kept = (outcome.status == ACCEPTED) | negation(outcome.status == ENERGY_NOT_KEPT)
+        solver = SolverReport(outcome.residual_squared, on_branch, outcome.iterations)
+        return outcome.state.pose, outcome.state.momentum, DriftReport(solver, kept)
+
+    return rescue
+
+
+@functools.cache
+def make_galerkin(order: int, drag: Drag | None) -> Callable[[Composition], Advance]:
+    """Return (composition) -> advance of the given order; `drag` is the damping of the scene, if it has any."""
+
+    def galerkin(composition: Composition) -> Advance:
+        return make_galerkin_advance(composition, order, drag)
+
+    return galerkin
+
+
+def make_galerkin_advance(composition: Composition, order: int, drag: Drag | None) -> Advance:
+    """Return the advance of a Galerkin method; where nothing acts on a body, the force-free step takes it on."""
+    free_step = make_galerkin_drift(order // 2)
+    arrive = composition.water.arrive
+    forced_step = make_forced_step(gauss(order // 2), make_wrench(composition, drag), arrive)
+    rescue = make_rescue(composition)
+    forceless = not (composition.pose_forces or composition.velocity_forces or drag)
+
+    def step(
+        parameters: StepParameters, pose: DualQuaternion, momentum: Spatial, time: float, wrench: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        h, inertia = parameters.timing.h, parameters.inertia
+        if forceless and not some(spatial_dot(wrench, wrench) > 0.0):
+            moved, carried, report = free_step(inertia, h, pose, momentum)
+        else:
+            moved, carried, report = forced_step(parameters, h, pose, momentum, time, wrench)
+        end = arrive(parameters.water, inertia, time, h, moved, carried)
+        return end.pose, end.momentum, report
+
+    def advance(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        pose, momentum = state.pose, state.momentum
+        progress = set_out(state)
+        for taken in range(steps):
+            node = time + taken * parameters.timing.h
+            outcome = step(parameters, pose, momentum, node, wrench)
+            lost = progress.under_way & negation(drift_accepted(outcome[2]))
+            if some(lost):
+                outcome = select_call(lost, rescue, (parameters, pose, momentum, node, wrench), outcome)
+            flown = Flown(outcome[0], outcome[1], outcome[2], lost)
+            progress = progress_by_step(progress_with(progress, flown))
+            if not some(progress.under_way):
+                break
+            pose = select(progress.under_way, flown.pose, pose)
+            momentum = select(progress.under_way, flown.momentum, momentum)
+        return arrival(state, pose, momentum, progress)
+
+    return advance
