@@ -7,6 +7,7 @@ kick is stable under any damping, and counted as a fallback.
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -81,10 +82,11 @@ def make_rescue(composition: Composition) -> Callable[..., tuple[DualQuaternion,
         inertia, damping, forces, water, timing = parameters
         timed = StepParameters(inertia, damping, forces, water, timing.piece)
         outcome = strang(timed, BodyState(pose, momentum), wrench, time, PIECES)
-        on_branch = outcome.status != WRONG_BRANCH
-        kept = (outcome.status == ACCEPTED) | negation(outcome.status == ENERGY_NOT_KEPT)
-        solver = SolverReport(outcome.residual_squared, on_branch, outcome.iterations)
-        return outcome.state.pose, outcome.state.momentum, DriftReport(solver, kept)
+        energy_kept = outcome.status != ENERGY_NOT_KEPT
+        solved = (outcome.status == ACCEPTED) | negation(energy_kept)
+        residual = select(solved, outcome.residual_squared, math.inf)
+        solver = SolverReport(residual, outcome.status != WRONG_BRANCH, outcome.iterations)
+        return outcome.state.pose, outcome.state.momentum, DriftReport(solver, energy_kept)
 
     return rescue
 

@@ -1,9 +1,10 @@
 """The curve of a Galerkin step at one of its nodes.
 
 Within a step the pose, seen from where the step starts, is the rotation of a quaternion gamma and the displacement x,
-both polynomials of degree s in the time, whose rates at the s Gauss nodes make the action stationary. In units in which
-the step lasts 1, with (a, b) = h mu the scaled momenta at the start, Gamma = 2 gamma', pi half the momentum of gamma and
-Pi = 2 pi', A and w Gauss's matrix and weights, and (m, f) the wrench times h^2 (docs/theory.md, "The Galerkin step"):
+both polynomials of degree s in the time, whose rates at the s Gauss nodes make the action stationary. In units in
+which the step lasts 1, with (a, b) = h mu the scaled momenta at the start, Gamma = 2 gamma', pi half the momentum of
+gamma and Pi = 2 pi', A and w Gauss's matrix and weights, (m, f) the wrench times h^2 (docs/theory.md, "The Galerkin
+step"):
 
     gamma_j = 1 + (1/2) sum_i A_ji Gamma_i,   pi_j = a + (1/2) sum_i A_ji Pi_i                          (G1)
     b_j = R_j^T (b + sum_i A_ji R_i f_i),     a_j = Im(gamma_j* pi_j)                                   (G2)

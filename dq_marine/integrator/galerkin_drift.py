@@ -24,13 +24,19 @@ from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift import Drift, transport_momentum
 from dq_marine.integrator.drift_report import DriftReport, is_energy_kept
 from dq_marine.integrator.galerkin_curve import Rates, attitude_from, node_at, travelled
-from dq_marine.integrator.galerkin_sweeps import half_matrix, make_first_nodes, make_sweeps, scales_of
+from dq_marine.integrator.galerkin_sweeps import (
+    half_matrix,
+    make_first_nodes,
+    make_sweeps,
+    relative_change_squared,
+    scales_of,
+)
 from dq_marine.integrator.inertia import Inertia
 
 
 @functools.cache
 def make_galerkin_drift(stages: int) -> Drift:
-    """Return (inertia, h, pose, momentum) -> (pose, momentum, report): the step with so many nodes, of twice that order."""
+    """Return (inertia, h, pose, momentum) -> (pose, momentum, report): the step with so many nodes."""
     method = gauss(stages)
     weights, halved = method.weights, half_matrix(method)
     first_nodes = make_first_nodes(method)
@@ -39,7 +45,7 @@ def make_galerkin_drift(stages: int) -> Drift:
         inverse, start = given
         return each_stage(weights, node_at, (inverse, start, stage_product(halved, rates)))
 
-    sweeps = make_sweeps(method, sweep)
+    sweeps = make_sweeps(method, sweep, relative_change_squared)
 
     def drift(
         inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial

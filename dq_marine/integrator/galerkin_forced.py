@@ -26,20 +26,27 @@ from dq_marine.algebra.spatial import (
     spatial_scale,
 )
 from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum
-from dq_marine.algebra.vector3 import Vector3, add, cross, scale
+from dq_marine.algebra.vector3 import Vector3, add, cross, dot, scale, subtract
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.galerkin_curve import (
     Rates,
     attitude_from,
+    change_squared,
     conjugate_product_vector,
     momentum_from,
     multiply_vector,
     turned,
     turned_back,
 )
-from dq_marine.integrator.galerkin_sweeps import half_matrix, make_first_nodes, make_sweeps, scales_of
+from dq_marine.integrator.galerkin_sweeps import (
+    Scales,
+    half_matrix,
+    make_first_nodes,
+    make_sweeps,
+    scales_of,
+)
 from dq_marine.integrator.step import StepParameters
 from dq_marine.integrator.water import WaterMove
 
@@ -126,6 +133,14 @@ def first_rates(rates: Rates, force: Vector3, velocity: Vector3) -> ForcedRates:
     return ForcedRates(rates.turning, rates.forcing, scale(2.0, force), scale(2.0, velocity))
 
 
+def forced_change_squared(scales: Scales, after: ForcedRates, before: ForcedRates) -> float:
+    """Return the squared change of a forced step's rates at a node."""
+    turned = change_squared(after.turning, before.turning)
+    moved = scales.turning * turned + scales.forcing * change_squared(after.forcing, before.forcing)
+    push = subtract(after.pushing, before.pushing)
+    return moved + scales.pushing * dot(push, push)
+
+
 def make_forced_step(method: Collocation, wrench_at: Wrench, carry: WaterMove) -> ForcedStep:
     """Return (parameters, h, pose, momentum, time, wrench) -> (pose, momentum, report): a step under forces.
 
@@ -139,7 +154,7 @@ def make_forced_step(method: Collocation, wrench_at: Wrench, carry: WaterMove) -
         parts = stage_constants(nodes, flight.start.angular[0])
         return each_stage(weights, forced_node, (flight, parts, stage_product(halved, rates)))
 
-    sweeps = make_sweeps(method, sweep)
+    sweeps = make_sweeps(method, sweep, forced_change_squared)
 
     def forced_step(
         parameters: StepParameters,

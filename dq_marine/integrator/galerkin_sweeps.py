@@ -9,8 +9,9 @@ fallback.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.matrix3 import trace, transform
@@ -21,7 +22,7 @@ from dq_marine.algebra.stages import each_stage, stage_constants, stage_product,
 from dq_marine.algebra.vector3 import dot
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift_report import SolverReport, accepted_squared, converged_squared
-from dq_marine.integrator.galerkin_curve import change_squared, first_node, turning_from
+from dq_marine.integrator.galerkin_curve import Rates, change_squared, first_node, turning_from
 
 MAX_SWEEPS = 40
 KIRCHHOFF_SWEEPS = 3  # for the first guess: more would not bring it closer than both collocations differ
@@ -32,15 +33,13 @@ SLOWEST_TRUSTED = (
 SAFETY = 0.01  # of the squared change that is expected of the next sweep: a tenth of what would do
 SMALL_PART = 1e-4  # of the squared parts of a velocity that cancel: their round-off is not to be waited for
 
-Sweep: TypeAlias = Callable[[Any], Any]
-"""From the rates at the nodes to new nodes."""
-
 
 class Scales(NamedTuple):
-    """What changes of Gamma and of Pi are compared with: one over the squares of their sizes."""
+    """What changes of Gamma, of Pi and of 2 R f are compared with: one over the squares of their sizes."""
 
     turning: float
     forcing: float
+    pushing: float
 
 
 def half_matrix(method: Collocation) -> tuple[tuple[float, ...], ...]:
@@ -53,16 +52,24 @@ def scales_of(inverse: Matrix6, start: Spatial, twist: Spatial, wrench: Spatial)
 
     What is left where terms cancel is round-off, which no sweep brings down; hence the sizes of the terms.
     """
-    pushed = dot(start.linear, start.linear) * dot(twist.linear, twist.linear)
-    pushed += dot(wrench.angular, wrench.angular)
+    driven = dot(wrench.angular, wrench.angular)
+    pushed = dot(start.linear, start.linear) * dot(twist.linear, twist.linear) + driven
     spin = dot(twist.angular, twist.angular)
     mobility = trace(inverse.angular)
     coupled = transform(inverse.angular_linear, start.linear)
     cancelled = SMALL_PART * (mobility * mobility * pushed + dot(coupled, coupled))
     tiny = smallest_normal(pushed)
     return Scales(
-        1.0 / (spin + cancelled + tiny), 1.0 / (dot(start.angular, start.angular) * spin + pushed + tiny)
+        turning=1.0 / (spin + cancelled + tiny),
+        forcing=1.0 / (dot(start.angular, start.angular) * spin + pushed + tiny),
+        pushing=1.0 / (dot(start.linear, start.linear) + dot(wrench.linear, wrench.linear) + tiny),
     )
+
+
+def relative_change_squared(scales: Scales, after: Rates, before: Rates) -> float:
+    """Return the squared change of a free step's rates at a node."""
+    turned = change_squared(after.turning, before.turning)
+    return scales.turning * turned + scales.forcing * change_squared(after.forcing, before.forcing)
 
 
 def collocation_rate(inverse: Matrix6, start: Spatial, wrench: Spatial, change: Spatial) -> Spatial:
@@ -100,12 +107,15 @@ def make_first_nodes(method: Collocation) -> Callable[[Matrix6, Spatial, Spatial
     return first_nodes
 
 
-def make_sweeps(method: Collocation, sweep: Callable[[Any, Any], Any]) -> Callable[..., Any]:
+def make_sweeps(
+    method: Collocation, sweep: Callable[[Any, Any], Any], change_of: Callable[[Scales, Any, Any], float]
+) -> Callable[..., Any]:
     """Return (what a sweep is handed, first nodes, scales) -> (nodes, report).
 
     A step is done when the change that is expected of the next sweep, that of the last one times the rate at which
-    they shrink, is at round-off, or when changes below the accepted one have stopped shrinking. A body that is done
-    waits, unchanged, for those beside it.
+    they shrink, is at round-off, or when changes below the accepted one have stopped shrinking. What is not done after
+    `MAX_SWEEPS` is not solved: short of round-off a step is not symplectic. A body that is done waits, unchanged, for
+    those beside it.
     """
     weights = method.weights
 
@@ -116,19 +126,18 @@ def make_sweeps(method: Collocation, sweep: Callable[[Any, Any], Any]) -> Callab
         count = 0
         for _ in range(MAX_SWEEPS):
             following = sweep(given, now.rates)
-            turns = each_stage(weights, change_squared, (following.rates.turning, now.rates.turning))
-            forces = each_stage(weights, change_squared, (following.rates.forcing, now.rates.forcing))
+            changes = each_stage(weights, change_of, (scales, following.rates, now.rates))
             before = change
-            after = scales.turning * stage_sum(weights, turns) + scales.forcing * stage_sum(weights, forces)
-            change = select(active, after, change)
+            change = select(active, stage_sum(weights, changes), change)
             now = each_stage(weights, select, (active, following, now))
             count += 1
             expected = change * max(change, SLOWEST_TRUSTED * before)
             done = expected <= SAFETY * converged_squared(change) * before
-            stagnates = (before <= accepted_squared(before)) & (change >= 0.25 * before)
+            stagnates = (before <= accepted_squared(before)) & (change >= before)
             active = active & negation(done | stagnates)
             if not some(active):
                 break
-        return now, SolverReport(change, spread(True, change), count)
+        residual = select(active, spread(math.inf, change), change)
+        return now, SolverReport(residual, spread(True, change), count)
 
     return sweeps
