@@ -1,7 +1,8 @@
 """Gauss's collocation methods: nodes, weights and matrices, to the last bit of a double.
 
 With s stages at the zeros c_i of the shifted Legendre polynomial of degree s, the method is of order 2s, symmetric, and
-keeps every quadratic invariant of an equation (Hairer, Lubich, Wanner 2006, Geometric Numerical Integration, II.1, IV.2).
+keeps every quadratic invariant of an equation (Hairer, Lubich, Wanner 2006, Geometric Numerical Integration, II.1,
+IV.2).
 """
 
 from __future__ import annotations

@@ -128,9 +128,10 @@ def make_forced_node(
     return forced_node
 
 
-def first_rates(rates: Rates, force: Vector3, velocity: Vector3) -> ForcedRates:
-    """Return a guess of the rates from those of free motion, and the force and velocity at the start."""
-    return ForcedRates(rates.turning, rates.forcing, scale(2.0, force), scale(2.0, velocity))
+def first_forced_node(rates: Rates, moment: Vector3, force: Vector3, velocity: Vector3) -> ForcedNode:
+    """Return a guess of a node from the rates of free motion, and the wrench and velocity at the start."""
+    forced = ForcedRates(rates.turning, rates.forcing, scale(2.0, force), scale(2.0, velocity))
+    return ForcedNode(forced, moment)
 
 
 def forced_change_squared(scales: Scales, after: ForcedRates, before: ForcedRates) -> float:
@@ -170,8 +171,8 @@ def make_forced_step(method: Collocation, wrench_at: Wrench, carry: WaterMove) -
         acting = wrench_at(parameters, pose, spatial_scale(1.0 / h, twist), time, wrench)
         acting = spatial_scale(h * h, acting)
         guess = first_nodes(inverse, start, acting)
-        rates = each_stage(weights, first_rates, (guess.rates, acting.linear, twist.linear))
-        first = sweep(flight, rates)
+        pushes = (guess.rates, acting.angular, acting.linear, twist.linear)
+        first = each_stage(weights, first_forced_node, pushes)
         node, report = sweeps(flight, first, scales_of(inverse, start, twist, acting))
         sums = stage_sum(weights, node.rates)
         turn = attitude_from(quaternion_scale(0.5, sums.turning))  # (G6)
