@@ -39,6 +39,13 @@ def of_one_stage(kind: types.Type) -> types.Type:
     return kind.of_one_stage() if kind.width > kind.stages else kind.dtype
 
 
+def has_stages(kind: types.Type) -> bool:
+    """Whether nested tuples have a number that differs between stages."""
+    if isinstance(kind, types.BaseTuple):
+        return any(has_stages(part) for part in kind.types)
+    return isinstance(kind, Lanes) and kind.stages > 1
+
+
 def mapped(kind: types.Type, change: Callable[[types.Type], types.Type]) -> types.Type:
     """Return the type of nested tuples with every number's type changed."""
     if isinstance(kind, types.BaseTuple):
@@ -102,6 +109,20 @@ def joined(builder: Any, parts: list[Any]) -> Any:
         second = shuffled(builder, second, [place % rest for place in range(size)])
     mask = ir.Constant(ir.VectorType(ir.IntType(32), size + rest), list(range(size + rest)))
     return builder.shuffle_vector(first, second, mask)
+
+
+def swapped(builder: Any, value: Any, count: int) -> list[Any]:
+    """Return a vector of 2 or 4 stages with stages i and i ^ j swapped, for every j.
+
+    Swaps are the cheapest shuffles that there are. In sums of pairs every stage still adds the same numbers: only the
+    sides of additions change.
+    """
+    neighbours = [place ^ 1 for place in range(count)]
+    parts = [value, shuffled(builder, value, neighbours)]
+    if count == 4:
+        across = shuffled(builder, value, [2, 3, 0, 1])
+        parts += [across, shuffled(builder, across, neighbours)]
+    return parts
 
 
 def weights_of(
@@ -231,13 +252,20 @@ def matrix_product(typing_context: Any, matrix: Any, structure: Any) -> Any:
             weights_of(context, builder, matrix.types[i], builder.extract_value(values[0], i), count, one)
             for i in range(count)
         ]
-        columns = [joined(builder, [rows[i][j] for i in range(count)]) for j in range(count)]
+        swap = lanes.width == count and count in (2, 4)
+        # The stage that meets stage i in term j: stage j, or the partner that flipped bits of i name.
+        partners = [[i ^ j if swap else j for i in range(count)] for j in range(count)]
+        columns = [joined(builder, [rows[i][partner[i]] for i in range(count)]) for partner in partners]
 
         def each(kind: Any, wide: Any, value: Any) -> Any:
             whole = widened(context, builder, kind, lanes, value)
-            parts = [
-                widened(context, builder, one, lanes, taken(builder, lanes, whole, j)) for j in range(count)
-            ]
+            if swap:
+                parts = swapped(builder, whole, count)
+            else:
+                parts = [
+                    widened(context, builder, one, lanes, taken(builder, lanes, whole, j))
+                    for j in range(count)
+                ]
             terms = [builder.fmul(a, x, lanes.flags) for a, x in zip(columns, parts, strict=True)]
             return summed(builder, terms, lanes.flags)
 
@@ -302,10 +330,13 @@ def _each_stage(weights: Any, function: Any, arguments: Any) -> Any:
     if find_lanes(arguments) is None:
         return lambda weights, function, arguments: widen_all(weights, function(*arguments), 0.0)
 
+    def call_once(weights: Any, function: Any, arguments: Any) -> Any:
+        return widen_all(weights, function(*arguments), first_lanes(arguments))
+
     def call(weights: Any, function: Any, arguments: Any) -> Any:
         return widen_all(weights, function(*widen(weights, arguments)), first_lanes(arguments))
 
-    return call
+    return call if has_stages(arguments) else call_once
 
 
 @intrinsic

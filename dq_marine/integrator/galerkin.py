@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion
@@ -73,15 +74,15 @@ def make_wrench(composition: Composition, drag: Drag | None) -> Wrench:
 
 
 def make_rescue(composition: Composition) -> Callable[..., tuple[DualQuaternion, Spatial, DriftReport]]:
-    """Return (parameters, pose, momentum, time, wrench) -> a step in pieces by Strang's method."""
-    strang = make_strang(composition)
+    """Return (parameters, pose, momentum, time, wrench) -> a step in pieces by the composition's fallback."""
+    fallback = composition.fallback
 
     def rescue(
         parameters: StepParameters, pose: DualQuaternion, momentum: Spatial, time: float, wrench: Spatial
     ) -> tuple[DualQuaternion, Spatial, DriftReport]:
         inertia, damping, forces, water, timing = parameters
         timed = StepParameters(inertia, damping, forces, water, timing.piece)
-        outcome = strang(timed, BodyState(pose, momentum), wrench, time, PIECES)
+        outcome = fallback(timed, BodyState(pose, momentum), wrench, time, PIECES)
         energy_kept = outcome.status != ENERGY_NOT_KEPT
         solved = (outcome.status == ACCEPTED) | negation(energy_kept)
         residual = select(solved, outcome.residual_squared, math.inf)
@@ -99,6 +100,12 @@ def make_galerkin(order: int, drag: Drag | None) -> Callable[[Composition], Adva
         return make_galerkin_advance(composition, order, drag)
 
     return galerkin
+
+
+@functools.cache
+def galerkin_composition(strang: Composition, order: int, drag: Drag | None) -> Composition:
+    """Return a Galerkin method's composition, which falls back to Strang's method with the same forces."""
+    return replace(strang, method=make_galerkin(order, drag), fallback=make_strang(strang))
 
 
 def make_galerkin_advance(composition: Composition, order: int, drag: Drag | None) -> Advance:

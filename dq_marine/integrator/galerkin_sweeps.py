@@ -25,6 +25,8 @@ from dq_marine.integrator.drift_report import SolverReport, accepted_squared, co
 from dq_marine.integrator.galerkin_curve import Rates, change_squared, first_node, turning_from
 
 MAX_SWEEPS = 40
+UNTESTED = 1  # sweeps before changes are looked at
+HOPELESS = 1e4  # squared change of a sweep that diverges
 KIRCHHOFF_SWEEPS = 3  # for the first guess: more would not bring it closer than both collocations differ
 TURNING_SWEEPS = 2
 SLOWEST_TRUSTED = (
@@ -121,22 +123,26 @@ def make_sweeps(
 
     def sweeps(given: Any, first: Any, scales: Scales) -> tuple[Any, SolverReport]:
         now = first
-        change = spread(1.0, scales.turning)
+        change = before = spread(1.0, scales.turning)
         active = spread(True, scales.turning)
         count = 0
-        for _ in range(MAX_SWEEPS):
+        for taken in range(MAX_SWEEPS):
             following = sweep(given, now.rates)
-            changes = each_stage(weights, change_of, (scales, following.rates, now.rates))
-            before = change
-            change = select(active, stage_sum(weights, changes), change)
-            now = each_stage(weights, select, (active, following, now))
             count += 1
-            expected = change * max(change, SLOWEST_TRUSTED * before)
-            done = expected <= SAFETY * converged_squared(change) * before
-            stagnates = (before <= accepted_squared(before)) & (change >= before)
-            active = active & negation(done | stagnates)
-            if not some(active):
-                break
+            if taken >= UNTESTED:
+                changes = stage_sum(
+                    weights, each_stage(weights, change_of, (scales, following.rates, now.rates))
+                )
+                before = select(active, change, before)
+                change = select(active, changes, change)
+            now = each_stage(weights, select, (active, following, now))
+            if taken > UNTESTED:
+                expected = change * max(change, SLOWEST_TRUSTED * before)
+                done = expected <= SAFETY * converged_squared(change) * before
+                stagnates = (before <= accepted_squared(before)) & (change >= before)
+                active = active & negation(done | stagnates)
+                if not some(active & (change <= HOPELESS)):
+                    break
         residual = select(active, spread(math.inf, change), change)
         return now, SolverReport(residual, spread(True, change), count)
 

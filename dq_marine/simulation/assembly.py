@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +14,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.actuation import NO_ACTUATION
 from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.integrator.extrapolated import ExtrapolatedTiming, make_extrapolated
-from dq_marine.integrator.galerkin import PIECES, GalerkinTiming, make_galerkin
+from dq_marine.integrator.galerkin import PIECES, GalerkinTiming, galerkin_composition, make_galerkin
 from dq_marine.integrator.kick import Kick
 from dq_marine.integrator.midpoint_drift import midpoint_drift, midpoint_fallback
 from dq_marine.integrator.paper_drift import paper_drift, paper_fallback
@@ -119,6 +119,9 @@ class Assembly:
     @property
     def composition(self) -> Composition:
         """The functions of the step."""
+        if self._is_galerkin:
+            strang = replace(self, order=2).composition
+            return galerkin_composition(strang, self.order, self.damping.drag)
         drift, fallback = SCHEMES[self.scheme]
         return Composition(
             method=self._method.make,
