@@ -1,7 +1,7 @@
 """The Galerkin variational integrators as a method: orders 4, 6 and 8 with any number of steps, forces and damping.
 
-A step whose sweeps do not converge is rescued: it is taken in pieces by Strang's method with the midpoint drift, whose
-kick is stable under any damping, and counted as a fallback.
+A step whose sweeps do not converge is rescued: it is taken in 2, 4 or 8 pieces, or else in pieces by Strang's method
+with the midpoint drift, whose kick is stable under any damping. It is counted as a fallback.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import functools
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.selection import negation, select, select_call, some
@@ -39,7 +39,13 @@ from dq_marine.integrator.step import (
 from dq_marine.integrator.strang import StrangTiming, make_strang
 
 PIECES = 8
-"""Of a step that is rescued."""
+"""Of a step that is rescued, at most of its own, and of Strang's."""
+
+Step: TypeAlias = Callable[
+    [StepParameters, float, DualQuaternion, Spatial, float, Spatial],
+    tuple[DualQuaternion, Spatial, DriftReport],
+]
+"""(parameters, h, pose, momentum, time, wrench) -> (pose, momentum, report)."""
 
 
 class GalerkinTiming(NamedTuple):
@@ -73,16 +79,83 @@ def make_wrench(composition: Composition, drag: Drag | None) -> Wrench:
     return damped
 
 
+def make_step(composition: Composition, order: int, drag: Drag | None) -> Step:
+    """Return one step; where nothing acts on a body, it is that of free motion."""
+    arrive = composition.water.arrive
+    free_step = make_galerkin_drift(order // 2)
+    forced_step = make_forced_step(gauss(order // 2), make_wrench(composition, drag), arrive)
+    forceless = not (composition.pose_forces or composition.velocity_forces or drag)
+
+    def step(
+        parameters: StepParameters,
+        h: float,
+        pose: DualQuaternion,
+        momentum: Spatial,
+        time: float,
+        wrench: Spatial,
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        if forceless and not some(spatial_dot(wrench, wrench) > 0.0):
+            moved, carried, report = free_step(parameters.inertia, h, pose, momentum)
+        else:
+            moved, carried, report = forced_step(parameters, h, pose, momentum, time, wrench)
+        end = arrive(parameters.water, parameters.inertia, time, h, moved, carried)
+        return end.pose, end.momentum, report
+
+    return step
+
+
+def make_fallback(strang: Composition, order: int, drag: Drag | None) -> Advance:
+    """Return (parameters, state, wrench, time, 1) -> one body's step in pieces: 2, 4, 8 of its own, or Strang's."""
+    step, advance_strang = make_step(strang, order, drag), make_strang(strang)
+
+    def fallback(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        inertia, damping, forces, water, timing = parameters
+        pieces = 2
+        while pieces <= PIECES:
+            h = timing.h / pieces
+            pose, momentum, report = step(parameters, h, state.pose, state.momentum, time, wrench)
+            worst, iterations = report.solver.relative_residual_squared, report.solver.iterations
+            done = 1
+            while done < pieces and drift_accepted(report):
+                pose, momentum, report = step(parameters, h, pose, momentum, time + done * h, wrench)
+                worst = max(worst, report.solver.relative_residual_squared)
+                iterations += report.solver.iterations
+                done += 1
+            if drift_accepted(report):
+                return StepOutcome(BodyState(pose, momentum), ACCEPTED, 1, iterations, 1, worst)
+            pieces *= 2
+        timed = StepParameters(inertia, damping, forces, water, timing.piece)
+        return advance_strang(timed, state, wrench, time, PIECES)
+
+    return fallback
+
+
+@functools.cache
+def galerkin_composition(strang: Composition, order: int, drag: Drag | None) -> Composition:
+    """Return a Galerkin method's composition; `drag` is the damping of the scene, if it has any."""
+    return replace(strang, method=make_galerkin(order, drag), fallback=make_fallback(strang, order, drag))
+
+
+@functools.cache
+def make_galerkin(order: int, drag: Drag | None) -> Callable[[Composition], Advance]:
+    """Return (composition) -> advance of the given order."""
+
+    def galerkin(composition: Composition) -> Advance:
+        return make_galerkin_advance(composition, order, drag)
+
+    return galerkin
+
+
 def make_rescue(composition: Composition) -> Callable[..., tuple[DualQuaternion, Spatial, DriftReport]]:
-    """Return (parameters, pose, momentum, time, wrench) -> a step in pieces by the composition's fallback."""
+    """Return (parameters, pose, momentum, time, wrench) -> a step by the composition's fallback."""
     fallback = composition.fallback
 
     def rescue(
         parameters: StepParameters, pose: DualQuaternion, momentum: Spatial, time: float, wrench: Spatial
     ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        inertia, damping, forces, water, timing = parameters
-        timed = StepParameters(inertia, damping, forces, water, timing.piece)
-        outcome = fallback(timed, BodyState(pose, momentum), wrench, time, PIECES)
+        outcome = fallback(parameters, BodyState(pose, momentum), wrench, time, 1)
         energy_kept = outcome.status != ENERGY_NOT_KEPT
         solved = (outcome.status == ACCEPTED) | negation(energy_kept)
         residual = select(solved, outcome.residual_squared, math.inf)
@@ -92,49 +165,19 @@ def make_rescue(composition: Composition) -> Callable[..., tuple[DualQuaternion,
     return rescue
 
 
-@functools.cache
-def make_galerkin(order: int, drag: Drag | None) -> Callable[[Composition], Advance]:
-    """Return (composition) -> advance of the given order; `drag` is the damping of the scene, if it has any."""
-
-    def galerkin(composition: Composition) -> Advance:
-        return make_galerkin_advance(composition, order, drag)
-
-    return galerkin
-
-
-@functools.cache
-def galerkin_composition(strang: Composition, order: int, drag: Drag | None) -> Composition:
-    """Return a Galerkin method's composition, which falls back to Strang's method with the same forces."""
-    return replace(strang, method=make_galerkin(order, drag), fallback=make_strang(strang))
-
-
 def make_galerkin_advance(composition: Composition, order: int, drag: Drag | None) -> Advance:
-    """Return the advance of a Galerkin method; where nothing acts on a body, the force-free step takes it on."""
-    free_step = make_galerkin_drift(order // 2)
-    arrive = composition.water.arrive
-    forced_step = make_forced_step(gauss(order // 2), make_wrench(composition, drag), arrive)
-    rescue = make_rescue(composition)
-    forceless = not (composition.pose_forces or composition.velocity_forces or drag)
-
-    def step(
-        parameters: StepParameters, pose: DualQuaternion, momentum: Spatial, time: float, wrench: Spatial
-    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        h, inertia = parameters.timing.h, parameters.inertia
-        if forceless and not some(spatial_dot(wrench, wrench) > 0.0):
-            moved, carried, report = free_step(inertia, h, pose, momentum)
-        else:
-            moved, carried, report = forced_step(parameters, h, pose, momentum, time, wrench)
-        end = arrive(parameters.water, inertia, time, h, moved, carried)
-        return end.pose, end.momentum, report
+    """Return the advance of a Galerkin method."""
+    step, rescue = make_step(composition, order, drag), make_rescue(composition)
 
     def advance(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
     ) -> StepOutcome:
+        h = parameters.timing.h
         pose, momentum = state.pose, state.momentum
         progress = set_out(state)
         for taken in range(steps):
-            node = time + taken * parameters.timing.h
-            outcome = step(parameters, pose, momentum, node, wrench)
+            node = time + taken * h
+            outcome = step(parameters, h, pose, momentum, node, wrench)
             lost = progress.under_way & negation(drift_accepted(outcome[2]))
             if some(lost):
                 outcome = select_call(lost, rescue, (parameters, pose, momentum, node, wrench), outcome)

@@ -56,7 +56,13 @@ CASES = {
     "order 6, paper": {"order": 6, "scheme": "paper", "current": CURRENT, **GRAVITY},
     "order 4, forces": {"order": 4, "forces": FORCES},
     "galerkin, free": {"order": 8, "scheme": "galerkin", "current": CURRENT},
-    "galerkin, everything": {"order": 4, "scheme": "galerkin", "forces": FORCES, "quadratic": QUADRATIC, **GRAVITY},
+    "galerkin, everything": {
+        "order": 4,
+        "scheme": "galerkin",
+        "forces": FORCES,
+        "quadratic": QUADRATIC,
+        **GRAVITY,
+    },
     "implicit node": {"l_stable": False, "linear": LINEAR, "quadratic": QUADRATIC},
 }
 
