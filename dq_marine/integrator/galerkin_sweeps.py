@@ -27,6 +27,10 @@ from dq_marine.integrator.galerkin_curve import Rates, change_squared, first_nod
 MAX_SWEEPS = 40
 UNTESTED = 1  # sweeps before changes are looked at
 HOPELESS = 1e4  # squared change of a sweep that diverges
+PATIENCE = (
+    11  # sweeps after which the squared change must be below the next number: pieces of the step cost less
+)
+PROMISING = 1e-9
 KIRCHHOFF_SWEEPS = 3  # for the first guess: more would not bring it closer than both collocations differ
 TURNING_SWEEPS = 2
 SLOWEST_TRUSTED = (
@@ -116,8 +120,8 @@ def make_sweeps(
 
     A step is done when the change that is expected of the next sweep, that of the last one times the rate at which
     they shrink, is at round-off, or when changes below the accepted one have stopped shrinking. What is not done after
-    `MAX_SWEEPS` is not solved: short of round-off a step is not symplectic. A body that is done waits, unchanged, for
-    those beside it.
+    `MAX_SWEEPS`, or shrinks too slowly, is not solved: short of round-off a step is not symplectic. A body that is
+    done waits, unchanged, for those beside it.
     """
     weights = method.weights
 
@@ -125,6 +129,7 @@ def make_sweeps(
         now = first
         change = before = spread(1.0, scales.turning)
         active = spread(True, scales.turning)
+        solved = spread(False, scales.turning)
         count = 0
         for taken in range(MAX_SWEEPS):
             following = sweep(given, now.rates)
@@ -140,10 +145,12 @@ def make_sweeps(
                 expected = change * max(change, SLOWEST_TRUSTED * before)
                 done = expected <= SAFETY * converged_squared(change) * before
                 stagnates = (before <= accepted_squared(before)) & (change >= before)
-                active = active & negation(done | stagnates)
-                if not some(active & (change <= HOPELESS)):
+                solved = solved | (active & (done | stagnates))
+                promising = change <= (PROMISING if taken >= PATIENCE else HOPELESS)
+                active = active & negation(solved) & promising
+                if not some(active):
                     break
-        residual = select(active, spread(math.inf, change), change)
+        residual = select(solved, change, spread(math.inf, change))
         return now, SolverReport(residual, spread(True, change), count)
 
     return sweeps
