@@ -15,6 +15,11 @@ def quaternion_add(a: Quaternion, b: Quaternion) -> Quaternion:
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3])
 
 
+def quaternion_subtract(a: Quaternion, b: Quaternion) -> Quaternion:
+    """Return a - b."""
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3])
+
+
 def quaternion_scale(s: float, a: Quaternion) -> Quaternion:
     """Return s a."""
     return (s * a[0], s * a[1], s * a[2], s * a[3])

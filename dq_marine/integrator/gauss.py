@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import Any, NamedTuple
 
 from dq_marine.algebra.selection import negation, select, some
 from dq_marine.algebra.spatial import Spatial
@@ -18,7 +17,7 @@ from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.gauss_drift import make_gauss_four
 from dq_marine.integrator.gauss_forced import make_forced_step
-from dq_marine.integrator.rescue import Stepped, make_take, solved, usable
+from dq_marine.integrator.rescue import Stepped, make_rescued_advance, make_take, solved, usable
 from dq_marine.integrator.step import (
     Advance,
     Composition,
@@ -30,13 +29,6 @@ from dq_marine.integrator.step import (
 
 BATCH = 4
 """Free steps whose motions are found side by side."""
-
-
-class GaussTiming(NamedTuple):
-    """Step size [s], and the timing of the fallback's method for it."""
-
-    h: float
-    fallback: Any
 
 
 def is_zero(wrench: Spatial) -> bool:
@@ -84,30 +76,13 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
     return unforced
 
 
-def make_forced(composition: Composition, stages: int) -> Advance:
-    """Return the advance of a scene with forces."""
-    take = make_take(make_forced_step(composition, gauss(stages)), composition.fallback)
-
-    def forced(
-        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
-    ) -> StepOutcome:
-        h = parameters.timing.h
-        now = Stepped(state.pose, state.momentum, set_out(state))
-        for step in range(steps):
-            now = take(parameters, wrench, time + step * h, h, now, now.progress.under_way)
-            if not some(now.progress.under_way):
-                break
-        return arrival(state, now.pose, now.momentum, now.progress)
-
-    return forced
-
-
 @functools.cache
 def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
     """Return the method of order 2 x stages: (composition) -> advance."""
 
     def make_gauss(composition: Composition) -> Advance:
-        forces = composition.pose_forces or composition.velocity_forces
-        return (make_forced if forces else make_unforced)(composition, stages)
+        if composition.pose_forces or composition.velocity_forces:
+            return make_rescued_advance(make_forced_step(composition, gauss(stages)), composition.fallback)
+        return make_unforced(composition, stages)
 
     return make_gauss

@@ -10,7 +10,15 @@ from dq_marine.algebra.selection import negation, select, select_call, some, spr
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.drift_report import DriftReport
-from dq_marine.integrator.step import ACCEPTED, Progress, StepOutcome, StepParameters
+from dq_marine.integrator.step import (
+    ACCEPTED,
+    Advance,
+    Progress,
+    StepOutcome,
+    StepParameters,
+    arrival,
+    set_out,
+)
 
 
 class Stepped(NamedTuple):
@@ -20,6 +28,19 @@ class Stepped(NamedTuple):
     momentum: Spatial
     progress: Progress
 
+
+class RescuedTiming(NamedTuple):
+    """Step size [s], and the timing of the advance that takes the steps which the method does not solve."""
+
+    h: float
+    fallback: Any
+
+
+Step: TypeAlias = Callable[
+    [StepParameters, float, float, DualQuaternion, Spatial, Spatial],
+    tuple[DualQuaternion, Spatial, DriftReport],
+]
+"""(parameters, time, h, pose, momentum, constant body wrench) -> (pose, momentum, report)."""
 
 Take: TypeAlias = Callable[[StepParameters, Spatial, float, float, Stepped, bool], Stepped]
 
@@ -58,12 +79,12 @@ def rescued(progress: Progress, lost: bool, outcome: StepOutcome) -> Progress:
     )
 
 
-def make_take(step: Callable[..., Any], fallback: Callable[..., StepOutcome]) -> Take:
+def make_take(step: Step, fallback: Advance) -> Take:
     """Return (parameters, wrench, time, h, now, wanted) -> where one step more leads the wanted bodies.
 
     Args:
-        step: (parameters, time, h, pose, momentum, wrench) -> (pose, momentum, report).
-        fallback: an advance, with `timing.fallback` for its timing.
+        step: whose report says by `on_rest_branch` whether its equations are solved.
+        fallback: with `timing.fallback` for its timing.
     """
 
     def take(
@@ -87,3 +108,21 @@ def make_take(step: Callable[..., Any], fallback: Callable[..., StepOutcome]) ->
         return Stepped(pose, momentum, progress)
 
     return take
+
+
+def make_rescued_advance(step: Step, fallback: Advance) -> Advance:
+    """Return the advance of a method step by step; arguments as for `make_take`."""
+    take = make_take(step, fallback)
+
+    def advance(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        h = parameters.timing.h
+        now = Stepped(state.pose, state.momentum, set_out(state))
+        for step in range(steps):
+            now = take(parameters, wrench, time + step * h, h, now, now.progress.under_way)
+            if not some(now.progress.under_way):
+                break
+        return arrival(state, now.pose, now.momentum, now.progress)
+
+    return advance

@@ -51,7 +51,8 @@ class Composition:
         velocity_forces: wrenches that depend on velocity too, apart from damping.
         kick: momentum change at frozen pose, (parameters, damping, inertia, momentum, wrench) -> momentum.
         drift: force-free motion, (inertia, h, pose, momentum) -> (pose, momentum, report).
-        fallback: the same for a step that `drift` does not solve; of a method that needs no drift, an advance.
+        fallback: the same for a step that `drift` does not solve; where the method solves its steps itself, an advance
+            for those that it does not solve.
         water: what moving water does.
         actuation: the vehicle's actuators; their force is the first of its list. None, unless a scene has them.
         potentials: of the pose forces, if all forces of the scene have one and the method makes use of them.
@@ -62,7 +63,7 @@ class Composition:
     velocity_forces: tuple[VelocityForce, ...]
     kick: Kick
     drift: Drift
-    fallback: Any
+    fallback: Callable[..., Any]
     water: Water
     actuation: Actuation = NO_ACTUATION
     potentials: tuple[Potential, ...] = ()

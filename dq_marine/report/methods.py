@@ -131,7 +131,7 @@ def own(
     scheme: str = "midpoint",
 ) -> Method:
     """Return one of the product's own methods."""
-    refuse = dissipation if order > 4 and scheme != "gauss" else nothing
+    refuse = dissipation if order > 4 and scheme not in ("gauss", "galerkin") else nothing
     compose = partial(compose_own, scheme, order)
     family: Family = "Gauss" if scheme == "gauss" else "DQVI"
     return Method(name, title, family, order, evaluations, damped_evaluations, compose, refuse)
@@ -152,6 +152,9 @@ def baseline(
     return Method(name, title, family, order, evaluations, damped, compose, nothing)
 
 
+SWEEPS = 10
+"""That a Galerkin step takes, about: 6 where steps are short, 15 where they are long."""
+
 METHODS = {
     method.name: method
     for method in (
@@ -161,6 +164,9 @@ METHODS = {
         own("dqvi6", "DQVI, order 6", 6, 9, 9),
         own("dqvi8", "DQVI, order 8", 8, 17, 17),
         own("gauss8", "Gauss on the momentum, order 8", 8, 41, 41, scheme="gauss"),
+        own("galerkin4", "Galerkin DQVI, order 4", 4, 2 * SWEEPS, 2 * SWEEPS, scheme="galerkin"),
+        own("galerkin6", "Galerkin DQVI, order 6", 6, 3 * SWEEPS, 3 * SWEEPS, scheme="galerkin"),
+        own("galerkin8", "Galerkin DQVI, order 8", 8, 4 * SWEEPS, 4 * SWEEPS, scheme="galerkin"),
         baseline("rk4_quaternion", "RK4, quaternion", "Runge-Kutta", 4, 4, make_rk4_quaternion),
         baseline("rk4_euler", "RK4, Euler angles", "Runge-Kutta", 4, 4, make_rk4_euler),
         baseline("semi_implicit_euler", "Semi-implicit Euler", "Euler", 1, 1, make_semi_implicit_euler),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -10,42 +9,33 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.algebra.spatial import Spatial
 from dq_marine.checks import one_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.actuation import NO_ACTUATION
 from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.integrator.extrapolated import ExtrapolatedTiming, make_extrapolated
-from dq_marine.integrator.forces import Potential, VelocityForce
-from dq_marine.integrator.gauss import GaussTiming, make_gauss_method
+from dq_marine.integrator.forces import Potential
 from dq_marine.integrator.kick import Kick
 from dq_marine.integrator.midpoint_drift import midpoint_drift, midpoint_fallback
 from dq_marine.integrator.paper_drift import paper_drift, paper_fallback
 from dq_marine.integrator.richardson import RichardsonTiming, make_richardson
-from dq_marine.integrator.step import Advance, Composition, StepParameters, make_advance
+from dq_marine.integrator.step import Advance, Composition, StepParameters
 from dq_marine.integrator.strang import make_strang
 from dq_marine.physics.actuators.build import ActuationTerm
-from dq_marine.physics.current.formulas.uniform import MOVING_WATER, STILL_WATER
 from dq_marine.physics.damping.build import DampingTerm
 from dq_marine.physics.matrices import inertia_term
 from dq_marine.physics.term import ForceTerm, WaterTerm, nested_parameters
+from dq_marine.simulation.collocated import COLLOCATED, Collocated, check_water
 
 DRIFTS = {"midpoint": (midpoint_drift, midpoint_fallback), "paper": (paper_drift, paper_fallback)}
-"""Variational schemes by name: the drift, and its fallback."""
+"""Schemes with a drift, by name: the drift, and its fallback."""
 
-GAUSS = "gauss"
-"""The scheme that integrates the momentum by Gauss's collocation."""
-
-SCHEMES = (*sorted(DRIFTS), GAUSS)
+SCHEMES = tuple(sorted([*DRIFTS, *COLLOCATED]))
 """Names of all schemes."""
-
-UNIFORM_WATER = (STILL_WATER, MOVING_WATER)
-"""Water that is taken in the frame which drifts with it."""
 
 ORDERS = (2, *STAGES)
 """Orders that a method may have."""
-
-GAUSS_STAGES = {8: 4}
-"""Stages of Gauss's collocation, by order."""
 
 
 def check_method(scheme: str, order: int) -> None:
@@ -54,30 +44,17 @@ def check_method(scheme: str, order: int) -> None:
     Raises:
         InvalidInputError: with the reason.
     """
-    one_of("scheme", scheme, sorted(SCHEMES))
+    one_of("scheme", scheme, SCHEMES)
     one_of("order", order, ORDERS)
-    if scheme == GAUSS and order not in GAUSS_STAGES:
+    if scheme == "gauss" and order not in COLLOCATED[scheme].orders:
         raise InvalidInputError(
-            f"order = {order}, but scheme = {GAUSS!r} has order {', '.join(map(str, GAUSS_STAGES))}; give order=8, or "
-            "another scheme"
+            f"order = {order}, but scheme = 'gauss' has order 8 alone; give order=8, or another scheme"
         )
 
 
-@functools.cache
-def gauss_composition(
-    strang: Composition, stages: int, drag: tuple[VelocityForce, ...], potentials: tuple[Potential, ...]
-) -> Composition:
-    """Return the composition of Gauss's collocation, which falls back to a step of another.
-
-    Damping is the last of its velocity forces: there the other one, whose kick has it, does not find its numbers.
-    """
-    return replace(
-        strang,
-        method=make_gauss_method(stages),
-        velocity_forces=(*strang.velocity_forces, *drag),
-        fallback=make_advance(strang),
-        potentials=potentials,
-    )
+def compiled_forms(forces: tuple[ForceTerm, ...]) -> tuple[Callable[..., Spatial], ...]:
+    """Return the functions of forces, as the step calls them."""
+    return tuple(force.compiled_form for force in forces)
 
 
 class Method(NamedTuple):
@@ -123,8 +100,8 @@ class Assembly:
             InvalidInputError: with the reason.
         """
         check_method(self.scheme, self.order)
-        if self.scheme == GAUSS:
-            self._check_gauss()
+        if self._collocated:
+            check_water(self.scheme, self.water)
         elif self.order > 4 and self.dissipation:
             raise InvalidInputError(
                 f"order = {self.order}, but there is {self.dissipation}: orders above 4 take negative stages, which "
@@ -146,16 +123,14 @@ class Assembly:
     @property
     def composition(self) -> Composition:
         """The functions of the step."""
-        if self.scheme == GAUSS:
-            drag = tuple(force.compiled_form for force in self.damping.drag)
-            return gauss_composition(
-                self._strang.composition, GAUSS_STAGES[self.order], drag, self._potentials
-            )
-        drift, fallback = DRIFTS[self.scheme]
+        if self._collocated:
+            strang = replace(self, scheme="midpoint", order=2).composition
+            return self._collocated.compose(strang, self.order, compiled_forms(self._drag), self._potentials)
+        drift, fallback = DRIFTS["midpoint" if self.scheme == "galerkin" else self.scheme]
         return Composition(
             method=self._method.make,
-            pose_forces=tuple(force.compiled_form for force in self._pose_forces(0.0)),
-            velocity_forces=tuple(force.compiled_form for force in self._velocity_forces(0.0)),
+            pose_forces=compiled_forms(self._pose_forces(0.0)),
+            velocity_forces=compiled_forms(self._velocity_forces(0.0)),
             kick=self._method.kick,
             drift=drift,
             fallback=fallback,
@@ -165,17 +140,21 @@ class Assembly:
 
     def parameters_at(self, step: float) -> StepParameters:
         """Return the numbers of the step for a step size [s]."""
-        drag = self.damping.drag if self.scheme == GAUSS else ()
         return StepParameters(
             inertia=inertia_term(self.mass_matrix),
             damping=self.damping.matrices,
             forces=(
                 nested_parameters(self._pose_forces(step)),
-                nested_parameters((*self._velocity_forces(step), *drag)),
+                nested_parameters((*self._velocity_forces(step), *self._drag)),
             ),
             water=self.water.parameters,
-            timing=self._method.timing(step),
+            timing=self._timing(step),
         )
+
+    def _timing(self, step: float) -> Any:
+        if self._collocated:
+            return self._collocated.timing(self.damping, step)
+        return self._method.timing(step)
 
     def _present(self, step: float) -> tuple[ForceTerm, ...]:
         """Return all forces; the actuators' first, where `physics.actuators.formulas.stepping` finds it."""
@@ -187,18 +166,6 @@ class Assembly:
     def _velocity_forces(self, step: float) -> tuple[ForceTerm, ...]:
         return tuple(force for force in self._present(step) if force.uses_velocity)
 
-    def _check_gauss(self) -> None:
-        """Refuse what Gauss's collocation does not have.
-
-        Raises:
-            InvalidInputError: with the reason.
-        """
-        if self.water.water not in UNIFORM_WATER:
-            raise InvalidInputError(
-                f"scheme = {GAUSS!r}, but the current varies ({self.water.name}); give a uniform and steady current, "
-                'or scheme="midpoint"'
-            )
-
     @property
     def _potentials(self) -> tuple[Potential, ...]:
         """Of all forces; none if one force has none, or something damps."""
@@ -208,16 +175,19 @@ class Assembly:
         return found if len(found) == len(self._present(0.0)) else ()
 
     @property
-    def _strang(self) -> Assembly:
-        """The same physics with the midpoint drift and order 2: the fallback of Gauss's collocation."""
-        return replace(self, scheme="midpoint", order=2)
+    def _collocated(self) -> Collocated | None:
+        """The scheme, if it solves steps of this order by collocation: Galerkin's of order 2 is the midpoint scheme."""
+        scheme = COLLOCATED.get(self.scheme)
+        return scheme if scheme and self.order in scheme.orders else None
+
+    @property
+    def _drag(self) -> tuple[ForceTerm, ...]:
+        """Damping as a force, where the scheme takes it as one."""
+        return self.damping.drag if self._collocated else ()
 
     @property
     def _method(self) -> Method:
         damping = self.damping
-        if self.scheme == GAUSS:
-            make = make_gauss_method(GAUSS_STAGES[self.order])
-            return Method(make, damping.kick, lambda h: GaussTiming(h, damping.timing(h)))
         if self.order == 2:
             return Method(make_strang, damping.kick, damping.timing)
         if not self.dissipation:

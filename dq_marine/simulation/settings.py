@@ -76,9 +76,10 @@ class Settings:
         hydrostatics: "linear": the restoring force of a floating vessel's waterplane for small motions, and weight and
             buoyancy of any other vehicle; or "hull": the buoyancy of the boxes of its hull at any depth and
             attitude, so that it may capsize, dive or leave the water.
-        scheme: the drift: "midpoint", or "paper" for that of Xu and Halse; or "gauss" for collocation on the momentum,
-            exact in momentum and energy but not variational, in a uniform and steady current.
-        order: of the method: 2 or 4, and 6 or 8 where nothing takes energy; 8 of "gauss".
+        scheme: "midpoint"; "paper" for that of Xu and Halse; "galerkin" for the variational integrators whose orders
+            above 2 need no substeps; or "gauss" for collocation on the momentum, exact in momentum and energy but not
+            variational. The last two want a uniform and steady current.
+        order: of the method: 2 or 4, and 6 or 8 where nothing takes energy, or with "galerkin"; 8 of "gauss".
         kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
         control_period: time between actions [s].
         substeps: integrator steps in a control period.

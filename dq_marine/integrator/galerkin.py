@@ -1,0 +1,119 @@
+"""The Galerkin variational integrators as a method: orders 4, 6 and 8 with any number of steps, forces and damping.
+
+A step whose sweeps do not converge is rescued: it is taken in 2, 4 or 8 pieces, or else in pieces by Strang's method
+with the midpoint drift, whose kick is stable under any damping. It is counted as a fallback.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import NamedTuple
+
+from dq_marine.algebra.dual_quaternion import DualQuaternion
+from dq_marine.algebra.selection import some
+from dq_marine.algebra.spatial import Spatial, spatial_dot
+from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.collocation import gauss
+from dq_marine.integrator.drift_report import DriftReport
+from dq_marine.integrator.forces import join_pose_forces, join_velocity_forces
+from dq_marine.integrator.galerkin_drift import make_galerkin_drift
+from dq_marine.integrator.galerkin_forced import Wrench, make_forced_step
+from dq_marine.integrator.rescue import Step, make_rescued_advance, usable
+from dq_marine.integrator.step import (
+    ACCEPTED,
+    Advance,
+    Composition,
+    StepOutcome,
+    StepParameters,
+    make_advance,
+)
+from dq_marine.integrator.strang import StrangTiming
+
+PIECES = 8
+"""Of a step that is rescued, at most of its own, and of Strang's."""
+
+
+class PiecesTiming(NamedTuple):
+    """Step size [s] of a step that is rescued, and Strang's timing for one of its pieces."""
+
+    h: float
+    piece: StrangTiming
+
+
+def make_wrench(composition: Composition) -> Wrench:
+    """Return (parameters, pose, twist, time, wrench) -> the sum of all forces on a body."""
+    add_pose_forces = join_pose_forces(composition.pose_forces)
+    add_velocity_forces = join_velocity_forces(composition.velocity_forces)
+
+    def wrench_at(
+        parameters: StepParameters, pose: DualQuaternion, twist: Spatial, time: float, wrench: Spatial
+    ) -> Spatial:
+        posed = add_pose_forces(parameters.forces[0], pose, time, wrench)
+        return add_velocity_forces(parameters.forces[1], pose, twist, time, posed)
+
+    return wrench_at
+
+
+def make_step(composition: Composition, order: int) -> Step:
+    """Return one step; where nothing acts on a body, it is that of free motion."""
+    arrive = composition.water.arrive
+    free_step = make_galerkin_drift(order // 2)
+    forced_step = make_forced_step(gauss(order // 2), make_wrench(composition), arrive)
+    forceless = not (composition.pose_forces or composition.velocity_forces)
+
+    def step(
+        parameters: StepParameters,
+        time: float,
+        h: float,
+        pose: DualQuaternion,
+        momentum: Spatial,
+        wrench: Spatial,
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        if forceless and not some(spatial_dot(wrench, wrench) > 0.0):
+            moved, carried, report = free_step(parameters.inertia, h, pose, momentum)
+        else:
+            moved, carried, report = forced_step(parameters, time, h, pose, momentum, wrench)
+        end = arrive(parameters.water, parameters.inertia, time, h, moved, carried)
+        return end.pose, end.momentum, report
+
+    return step
+
+
+@functools.cache
+def make_in_pieces(composition: Composition, order: int, strang: Composition) -> Advance:
+    """Return (parameters, state, wrench, time, 1) -> one body's step in pieces: 2, 4, 8 of its own, or Strang's."""
+    step, advance_strang = make_step(composition, order), make_advance(strang)
+
+    def in_pieces(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        inertia, damping, forces, water, timing = parameters
+        pieces = 2
+        while pieces <= PIECES:
+            h = timing.h / pieces
+            pose, momentum, report = step(parameters, time, h, state.pose, state.momentum, wrench)
+            worst, iterations = report.solver.relative_residual_squared, report.solver.iterations
+            done = 1
+            while done < pieces and usable(report):
+                pose, momentum, report = step(parameters, time + done * h, h, pose, momentum, wrench)
+                worst = max(worst, report.solver.relative_residual_squared)
+                iterations += report.solver.iterations
+                done += 1
+            if usable(report):
+                return StepOutcome(BodyState(pose, momentum), ACCEPTED, 1, iterations, 1, worst)
+            pieces *= 2
+        timed = StepParameters(inertia, damping, forces, water, timing.piece)
+        return advance_strang(timed, state, wrench, time, PIECES)
+
+    return in_pieces
+
+
+@functools.cache
+def make_galerkin(order: int) -> Callable[[Composition], Advance]:
+    """Return the method of the given order: (composition) -> advance."""
+
+    def galerkin(composition: Composition) -> Advance:
+        return make_rescued_advance(make_step(composition, order), composition.fallback)
+
+    return galerkin

@@ -1,0 +1,104 @@
+"""The schemes that solve a whole step by collocation: what a scene's composition and timing become with them.
+
+Both take a scene's forces at the nodes of the step, damping among them, and leave the steps that they do not solve to
+Strang's method with the midpoint drift.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple, TypeAlias
+
+from dq_marine.errors import InvalidInputError
+from dq_marine.integrator.forces import Potential, VelocityForce
+from dq_marine.integrator.galerkin import PIECES, PiecesTiming, make_galerkin, make_in_pieces
+from dq_marine.integrator.gauss import make_gauss_method
+from dq_marine.integrator.rescue import RescuedTiming
+from dq_marine.integrator.step import Composition, make_advance
+from dq_marine.physics.current.formulas.uniform import MOVING_WATER, STILL_WATER
+from dq_marine.physics.damping.build import DampingTerm
+from dq_marine.physics.term import WaterTerm
+
+VelocityForces: TypeAlias = tuple[VelocityForce, ...]
+Potentials: TypeAlias = tuple[Potential, ...]
+
+UNIFORM_WATER = (STILL_WATER, MOVING_WATER)
+"""Water that is taken in the frame which drifts with it."""
+
+
+class Collocated(NamedTuple):
+    """A scheme.
+
+    Attributes:
+        orders: that it solves by collocation.
+        compose: (composition of Strang's method, order, damping as forces, potentials of all forces) -> composition.
+        timing: (damping, step size [s]) -> what the method needs to know of the step size.
+    """
+
+    orders: tuple[int, ...]
+    compose: Callable[[Composition, int, VelocityForces, Potentials], Composition]
+    timing: Callable[[DampingTerm, float], RescuedTiming]
+
+
+def with_drag(strang: Composition, drag: VelocityForces) -> Composition:
+    """Return the composition with damping as the last of its velocity forces.
+
+    There Strang's method, whose kick has it, does not find its numbers.
+    """
+    return replace(strang, velocity_forces=(*strang.velocity_forces, *drag))
+
+
+@functools.cache
+def gauss_composition(
+    strang: Composition, order: int, drag: VelocityForces, potentials: Potentials
+) -> Composition:
+    """Return the composition of Gauss's collocation on the momentum."""
+    return replace(
+        with_drag(strang, drag),
+        method=make_gauss_method(order // 2),
+        fallback=make_advance(strang),
+        potentials=potentials,
+    )
+
+
+def gauss_timing(damping: DampingTerm, step: float) -> RescuedTiming:
+    """Return the timing of Gauss's collocation on the momentum."""
+    return RescuedTiming(step, damping.timing(step))
+
+
+@functools.cache
+def galerkin_composition(
+    strang: Composition, order: int, drag: VelocityForces, potentials: Potentials
+) -> Composition:
+    """Return the composition of a Galerkin variational integrator, which needs no potentials."""
+    collocated = with_drag(strang, drag)
+    return replace(
+        collocated, method=make_galerkin(order), fallback=make_in_pieces(collocated, order, strang)
+    )
+
+
+def galerkin_timing(damping: DampingTerm, step: float) -> RescuedTiming:
+    """Return the timing of a Galerkin variational integrator."""
+    return RescuedTiming(step, PiecesTiming(step, damping.timing(step / PIECES)))
+
+
+COLLOCATED = {
+    "galerkin": Collocated((4, 6, 8), galerkin_composition, galerkin_timing),
+    "gauss": Collocated((8,), gauss_composition, gauss_timing),
+}
+"""By name."""
+
+
+def check_water(scheme: str, water: WaterTerm) -> None:
+    """Refuse currents that vary: these schemes do not know of them yet.
+
+    Raises:
+        InvalidInputError: with the reason.
+    """
+    if water.water not in UNIFORM_WATER:
+        raise InvalidInputError(
+            f"scheme = {scheme!r}, but the current varies ({water.name}); give a uniform and steady current, or "
+            'scheme="midpoint"'
+        )
