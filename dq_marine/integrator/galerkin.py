@@ -1,7 +1,7 @@
 """The Galerkin variational integrators as a method: orders 4, 6 and 8 with any number of steps, forces and damping.
 
-A step whose sweeps do not converge is rescued: it is taken in 2, 4 or 8 pieces, or else in pieces by Strang's method
-with the midpoint drift, whose kick is stable under any damping. It is counted as a fallback.
+A step whose sweeps do not converge is left to the fallback: 2, 4 or 8 pieces of the same method, or else pieces by
+Strang's method with the midpoint drift, whose kick is stable under any damping. Such steps are counted.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from dq_marine.algebra.spatial import Spatial, spatial_dot
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift_report import DriftReport
+from dq_marine.integrator.fallback import Step, make_advance_with_fallback, usable
 from dq_marine.integrator.forces import join_pose_forces, join_velocity_forces
 from dq_marine.integrator.galerkin_drift import make_galerkin_drift
 from dq_marine.integrator.galerkin_forced import Wrench, make_forced_step
-from dq_marine.integrator.rescue import Step, make_rescued_advance, usable
 from dq_marine.integrator.step import (
     ACCEPTED,
     Advance,
@@ -31,11 +31,11 @@ from dq_marine.integrator.step import (
 from dq_marine.integrator.strang import StrangTiming
 
 PIECES = 8
-"""Of a step that is rescued, at most of its own, and of Strang's."""
+"""Of a step that the sweeps do not solve: at most, of the same method, and of Strang's."""
 
 
 class PiecesTiming(NamedTuple):
-    """Step size [s] of a step that is rescued, and Strang's timing for one of its pieces."""
+    """Step size [s] of a step that is taken in pieces, and Strang's timing for one of `PIECES`."""
 
     h: float
     piece: StrangTiming
@@ -114,6 +114,6 @@ def make_galerkin(order: int) -> Callable[[Composition], Advance]:
     """Return the method of the given order: (composition) -> advance."""
 
     def galerkin(composition: Composition) -> Advance:
-        return make_rescued_advance(make_step(composition, order), composition.fallback)
+        return make_advance_with_fallback(make_step(composition, order), composition.fallback)
 
     return galerkin

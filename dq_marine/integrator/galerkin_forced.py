@@ -30,6 +30,7 @@ from dq_marine.algebra.vector3 import Vector3, add, cross, dot, scale, subtract
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
+from dq_marine.integrator.fallback import Step
 from dq_marine.integrator.galerkin_curve import (
     Rates,
     attitude_from,
@@ -47,7 +48,6 @@ from dq_marine.integrator.galerkin_sweeps import (
     make_sweeps,
     scales_of,
 )
-from dq_marine.integrator.rescue import Step
 from dq_marine.integrator.step import StepParameters
 from dq_marine.integrator.water import WaterMove
 

@@ -15,9 +15,9 @@ from dq_marine.algebra.selection import negation, select, some
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
+from dq_marine.integrator.fallback import Stepped, make_advance_with_fallback, make_take, solved, usable
 from dq_marine.integrator.gauss_drift import make_gauss_four
 from dq_marine.integrator.gauss_forced import make_forced_step
-from dq_marine.integrator.rescue import Stepped, make_rescued_advance, make_take, solved, usable
 from dq_marine.integrator.step import (
     Advance,
     Composition,
@@ -82,7 +82,9 @@ def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
 
     def make_gauss(composition: Composition) -> Advance:
         if composition.pose_forces or composition.velocity_forces:
-            return make_rescued_advance(make_forced_step(composition, gauss(stages)), composition.fallback)
+            return make_advance_with_fallback(
+                make_forced_step(composition, gauss(stages)), composition.fallback
+            )
         return make_unforced(composition, stages)
 
     return make_gauss

@@ -12,10 +12,10 @@ from dataclasses import replace
 from typing import NamedTuple, TypeAlias
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.integrator.fallback import FallbackTiming
 from dq_marine.integrator.forces import Potential, VelocityForce
 from dq_marine.integrator.galerkin import PIECES, PiecesTiming, make_galerkin, make_in_pieces
 from dq_marine.integrator.gauss import make_gauss_method
-from dq_marine.integrator.rescue import RescuedTiming
 from dq_marine.integrator.step import Composition, make_advance
 from dq_marine.physics.current.formulas.uniform import MOVING_WATER, STILL_WATER
 from dq_marine.physics.damping.build import DampingTerm
@@ -39,7 +39,7 @@ class Collocated(NamedTuple):
 
     orders: tuple[int, ...]
     compose: Callable[[Composition, int, VelocityForces, Potentials], Composition]
-    timing: Callable[[DampingTerm, float], RescuedTiming]
+    timing: Callable[[DampingTerm, float], FallbackTiming]
 
 
 def with_drag(strang: Composition, drag: VelocityForces) -> Composition:
@@ -63,9 +63,9 @@ def gauss_composition(
     )
 
 
-def gauss_timing(damping: DampingTerm, step: float) -> RescuedTiming:
+def gauss_timing(damping: DampingTerm, step: float) -> FallbackTiming:
     """Return the timing of Gauss's collocation on the momentum."""
-    return RescuedTiming(step, damping.timing(step))
+    return FallbackTiming(step, damping.timing(step))
 
 
 @functools.cache
@@ -79,9 +79,9 @@ def galerkin_composition(
     )
 
 
-def galerkin_timing(damping: DampingTerm, step: float) -> RescuedTiming:
+def galerkin_timing(damping: DampingTerm, step: float) -> FallbackTiming:
     """Return the timing of a Galerkin variational integrator."""
-    return RescuedTiming(step, PiecesTiming(step, damping.timing(step / PIECES)))
+    return FallbackTiming(step, PiecesTiming(step, damping.timing(step / PIECES)))
 
 
 COLLOCATED = {

@@ -101,6 +101,7 @@ def test_unit_dual_quaternions_are_a_group_and_keep_the_dual_number_product(a, b
 
 ARITHMETIC = (
     (qt.quaternion_add, "qq"),
+    (qt.quaternion_subtract, "qq"),
     (qt.quaternion_scale, "sq"),
     (qt.quaternion_dot, "qq"),
     (qt.quaternion_multiply, "qq"),

@@ -242,7 +242,7 @@ def test_stiff_damping_goes_to_the_fallback_which_is_stable(stiffness):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"order": 2}, r"order = 2, but scheme = 'gauss' has order 8; give order=8"),
+        ({"order": 2}, r"order = 2, but scheme = 'gauss' has order 8 alone; give order=8"),
         ({"order": 8, "current": PROFILE}, r"scheme = 'gauss', but the current varies"),
     ],
 )

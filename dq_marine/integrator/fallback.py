@@ -29,7 +29,7 @@ class Stepped(NamedTuple):
     progress: Progress
 
 
-class RescuedTiming(NamedTuple):
+class FallbackTiming(NamedTuple):
     """Step size [s], and the timing of the advance that takes the steps which the method does not solve."""
 
     h: float
@@ -64,7 +64,7 @@ def solved(progress: Progress, fine: bool, report: DriftReport, steps: int) -> P
     )
 
 
-def rescued(progress: Progress, lost: bool, outcome: StepOutcome) -> Progress:
+def fallen_back(progress: Progress, lost: bool, outcome: StepOutcome) -> Progress:
     """Return the progress after a step of the fallback for bodies that were lost; it counts once for each."""
     taken = outcome.status == ACCEPTED
     refused = lost & negation(taken)
@@ -104,13 +104,13 @@ def make_take(step: Step, fallback: Advance) -> Take:
             unmoved = StepOutcome(state, none, none, 0, none, report.solver.relative_residual_squared)
             outcome = select_call(lost, fallback, (timed, state, wrench, time, 1), unmoved)
             pose, momentum = outcome.state.pose, outcome.state.momentum
-            progress = rescued(progress, lost, outcome)
+            progress = fallen_back(progress, lost, outcome)
         return Stepped(pose, momentum, progress)
 
     return take
 
 
-def make_rescued_advance(step: Step, fallback: Advance) -> Advance:
+def make_advance_with_fallback(step: Step, fallback: Advance) -> Advance:
     """Return the advance of a method step by step; arguments as for `make_take`."""
     take = make_take(step, fallback)
 
