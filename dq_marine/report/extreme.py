@@ -11,7 +11,7 @@ import numpy as np
 from dq_marine.report.branch import LONGEST_STRIDE, SCHEMES, confirmed_pieces
 from dq_marine.report.cells import Cell, cells, summary
 from dq_marine.report.end_state import end_of, errors
-from dq_marine.report.methods import METHODS, Method
+from dq_marine.report.methods import METHODS, UNSWEPT, Method
 from dq_marine.report.plan import Plan, Row, Rows, Study, Unit
 from dq_marine.report.showing.extreme_view import (
     ACCURATE,
@@ -82,7 +82,7 @@ def rows_of(members: list[Cell], refinements: tuple[int, ...]) -> Rows:
     rows: Rows = []
     for cell in members:
         exact = exact_motion(cell, refinements)
-        for method in METHODS.values():
+        for method in UNSWEPT.values():
             if not method.refusal(cell.physics):
                 rows.append(row_of(cell, method, exact))
     return rows

@@ -46,8 +46,6 @@ STYLES = {
     "dqvi4": LineStyle(SKY, "s"),
     "dqvi6": LineStyle(GREEN, "D"),
     "dqvi8": LineStyle(PURPLE, "^"),
-    "galerkin4": LineStyle(SKY, "s", DASHED, filled=False),
-    "galerkin6": LineStyle(GREEN, "D", DASHED, filled=False),
     "galerkin8": LineStyle(PURPLE, "^", DASHED, filled=False),
     "dqvi_paper": LineStyle(BLUE, "o", DASHED, filled=False),
     "rk4_quaternion": LineStyle(VERMILLION, "v"),
