@@ -8,7 +8,7 @@ from typing import Any
 from dq_marine.report.cases import CASES, Case
 from dq_marine.report.end_state import end_of, errors
 from dq_marine.report.library_points import available, library_rows, settings_of
-from dq_marine.report.methods import METHODS, Method
+from dq_marine.report.methods import METHODS, UNSWEPT, Method
 from dq_marine.report.plan import Plan, Row, Rows, Study, Unit
 from dq_marine.report.references import Reference, reference
 from dq_marine.report.showing.work_precision_view import checks, drawings, findings, tables
@@ -51,7 +51,8 @@ def units(plan: Plan) -> list[Unit]:
     for case in CASES.values():
         if not plan.wants(case.name):
             continue
-        methods = [method for method in METHODS.values() if not method.refusal(case.physics)]
+        known = plan.pick(METHODS, UNSWEPT)  # methods by sweeps take longest to compile
+        methods = [method for method in known.values() if not method.refusal(case.physics)]
         settings: dict[str, Any] = case.summary() | {"levels": list(levels)}
         found += [
             Unit(
