@@ -18,7 +18,8 @@ from numba.extending import overload, register_jitable
 import dq_marine.backend.stages  # noqa: F401  gives compiled code what `algebra.stages` names
 from dq_marine.backend.disk_cache import keep_on_disk
 from dq_marine.backend.garbage import collect_garbage_rarely_while_compiling
-from dq_marine.backend.selection import INLINED, PROVIDED
+from dq_marine.backend.inlining import INLINED
+from dq_marine.backend.selection import PROVIDED
 
 CONSTANT_TYPES = (bool, int, float, complex, str, tuple, np.ndarray)
 """What compiled code takes as it stood when it was compiled."""

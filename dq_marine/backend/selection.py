@@ -13,11 +13,8 @@ from numba.core.typing import signature
 from numba.extending import intrinsic, overload
 
 from dq_marine.algebra import selection
+from dq_marine.backend.inlining import INLINED
 from dq_marine.backend.lane_type import Lanes, all_bits, any_bit, as_lanes, extract
-
-INLINED = {"error_model": "numpy", "forceinline": True, "no_cfunc_wrapper": True}
-"""Numba's options for functions that go into others. Nothing calls them from C: a wrapper for that, which Numba makes
-unless told otherwise, would cost a tenth of the time that compilation takes."""
 
 PROVIDED: set[Callable[..., Any]] = set()
 """Pure functions that compiled code has from here, not from their Python text."""
