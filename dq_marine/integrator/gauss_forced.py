@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import (
     DualQuaternion,
@@ -50,6 +50,7 @@ from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.energy_level import levelling
+from dq_marine.integrator.fallback import Step
 from dq_marine.integrator.forces import join_pose_forces, join_potentials, join_velocity_forces
 from dq_marine.integrator.gauss_stages import squared_length, weighted_square
 from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, turned, unit
@@ -98,12 +99,6 @@ class Surroundings(NamedTuple):
     wrench: Spatial
     time: float
     elapsed: float
-
-
-ForcedStep: TypeAlias = Callable[
-    [StepParameters, float, float, DualQuaternion, Spatial, Spatial],
-    tuple[DualQuaternion, Spatial, DriftReport],
-]
 
 
 def moved_place(place: Place, s: float, rate: Place) -> Place:
@@ -202,7 +197,7 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
     return levelled
 
 
-def make_forced_step(composition: Composition, method: Collocation) -> ForcedStep:
+def make_forced_step(composition: Composition, method: Collocation) -> Step:
     """Return (parameters, time, h, pose, momentum, wrench) -> (pose, momentum, report): one step of order 2s."""
     forces_at, land = make_forces(composition), make_landing(composition)
     arrive = composition.water.arrive
