@@ -38,6 +38,10 @@ class Timing:
         """Middle sample [s]."""
         return statistics.median(self.samples)
 
+    def per(self, units: float) -> Timing:
+        """Return the same for each of so many units of work that the call did."""
+        return Timing(tuple(sample / units for sample in self.samples), self.cores)
+
     def row(self) -> dict[str, Any]:
         """Return the shortest and the middle sample, in nanoseconds."""
         return {"best_ns": rounded(self.best * 1e9), "median_ns": rounded(self.median * 1e9)}

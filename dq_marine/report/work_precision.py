@@ -12,14 +12,14 @@ from dq_marine.report.methods import METHODS, UNSWEPT, Method
 from dq_marine.report.plan import Plan, Row, Rows, Study, Unit
 from dq_marine.report.references import Reference, reference
 from dq_marine.report.showing.work_precision_view import checks, drawings, findings, tables
-from dq_marine.report.timing import Timed, compare
+from dq_marine.report.timing import Timed, Timing, compare
 from dq_marine.report.trial import DONE, evaluations_of, finite, overflow_allowed, trial
 
-COARSEST = 20
-"""Steps of a whole motion."""
+COARSEST = 5
+"""Steps of a whole motion: methods of order 8 follow most motions with so few."""
 
-FULL_LEVELS = tuple(COARSEST * 2**level for level in range(15))
-QUICK_LEVELS = FULL_LEVELS[:9]
+FULL_LEVELS = tuple(COARSEST * 2**level for level in range(17))
+QUICK_LEVELS = FULL_LEVELS[:11]
 SMALLEST_ERROR = 1e-12
 """Of attitude [rad]: a method that has come this far takes no smaller steps."""
 
@@ -27,7 +27,7 @@ LONGEST = 2_000_000
 """Evaluations of the forces in one run, at most."""
 
 TIMED_STEPS = (2_000, 20_000)
-"""Steps that a timing takes at the least, so that the call does not count, and at the most."""
+"""Steps from which on the call itself does not count in a timing, and steps that one takes at the most."""
 
 LIBRARY_EVALUATIONS = (20_000, 3_000)
 """Of the forces in one run of a library; once there are more, no finer setting is tried. Full, quick."""
@@ -35,12 +35,13 @@ LIBRARY_EVALUATIONS = (20_000, 3_000)
 METHOD = f"""\
 Each motion is run to its end with ever smaller steps, from {COARSEST} for the whole motion. Errors are those of
 attitude, position and velocity at the end, against a closed form or the finest solution that is known. Time is that
-of the compiled steps on one core, per simulated second: calls of {TIMED_STEPS[0]:,} steps or more, all methods and
-sizes in turn, the shortest of several samples. Every method of this package and every baseline is compiled in the same
-way and uses the same functions for the forces. Evaluations count how often all forces are evaluated; DQVI also
-solves three equations for each of its drifts, which only the time shows. SciPy solves the same equations with the
-same compiled forces and with tolerances instead of steps; its time is that of a whole solution, its own Python
-included. MuJoCo can represent only the free rigid bodies exactly."""
+of the compiled steps on one core, per simulated second of the motion itself, all methods and sizes in turn, the
+shortest of several samples; where a motion has fewer than {TIMED_STEPS[0]:,} steps, less the time of a call of one.
+Every method of this package and every baseline is compiled in the same way and uses the same functions for the forces.
+Evaluations count how often all forces are evaluated; DQVI also solves three equations for each of its drifts, which
+only the time shows. SciPy solves the same equations with the same compiled forces and with tolerances instead of
+steps; its time is that of a whole solution, its own Python included. MuJoCo can represent only the free rigid bodies
+exactly."""
 
 
 def units(plan: Plan) -> list[Unit]:
@@ -135,30 +136,42 @@ def error_row(case: Case, method: Method, steps: int, exact: Reference) -> Row:
 
 def time_rows(case: Case, methods: list[Method], levels: tuple[int, ...], rounds: int) -> Rows:
     """Return times of all methods and step sizes, measured in turn."""
-    cases: dict[tuple[str, int], Timed] = {}
-    for method in methods:
-        for steps in levels:
-            timed = timed_steps(case, method, steps)
-            if timed is not None:
-                cases[method.name, steps] = timed
-    timings = compare(cases, rounds)
-    return [
-        {"kind": "time", "case": case.name, "method": name, "steps": steps, **timings[name, steps].row()}
-        for name, steps in cases
-    ]
+    calls = {
+        (method.name, steps, count): timed
+        for method in methods
+        for steps in levels
+        for count, timed in timed_calls(case, method, steps).items()
+    }
+    timings = compare(calls, rounds)
+    rows: Rows = []
+    for name, steps, count in calls:
+        if count > 1:
+            call, first = timings[name, steps, count], timings.get((name, steps, 1))
+            step = case.duration / steps
+            row: Row = {"kind": "time", "case": case.name, "method": name, "steps": steps}
+            rows.append(row | seconds_each(call, first, count).per(step).row())
+    return rows
 
 
-def timed_steps(case: Case, method: Method, steps: int) -> Timed | None:
-    """Return the call whose time is taken, in nanoseconds a simulated second; None if the step fails."""
-    step = case.duration / steps
-    body = trial(method, case.physics, step)
-    least, most = TIMED_STEPS
-    for count in (min(max(steps, least), most), min(steps, most)):
-        case.place(body)
-        start = body.get_state()
-        if body.attempt(case.wrench, count) == DONE:
-            return Timed(partial(body.step, case.wrench, count), count * step, partial(body.set_state, start))
-    return None
+def seconds_each(call: Timing, first: Timing | None, count: int) -> Timing:
+    """Return the time of a step, from that of a call of `count` and, if the call itself counts, of one of one."""
+    if first is None or first.best >= call.best:
+        return call.per(count)
+    pairs = zip(sorted(call.samples), sorted(first.samples), strict=True)
+    return Timing(tuple(many - one for many, one in pairs), call.cores).per(count - 1)
+
+
+def timed_calls(case: Case, method: Method, steps: int) -> dict[int, Timed]:
+    """Return the calls whose times tell that of a step, by their number of steps; none if the step fails."""
+    body = trial(method, case.physics, case.duration / steps)
+    enough, most = TIMED_STEPS
+    count = min(steps, most)
+    case.place(body)
+    start = partial(body.set_state, body.get_state())
+    if body.attempt(case.wrench, count) != DONE:
+        return {}
+    counts = (count,) if count >= enough else (1, count)
+    return {steps: Timed(partial(body.step, case.wrench, steps), 1.0, start) for steps in counts}
 
 
 STUDY = Study("work_precision", "Error against cost", METHOD, units, drawings, tables, findings, checks)

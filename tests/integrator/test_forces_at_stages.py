@@ -1,0 +1,78 @@
+"""Collocation under one force at a time: its order, whatever acts on the body."""
+
+import numpy as np
+import pytest
+from support.bodies import PlainBody
+from support.order import observed_order
+from support.sweeps import sweep
+
+from dq_marine import Jonswap, Scene, Sea, Wind, load_vehicle
+from dq_marine.algebra.dual_quaternion import pose_position
+from dq_marine.algebra.quaternion import rotate_inverse
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.vector3 import scale
+from dq_marine.physics.term import ForceTerm
+
+COUNTS = {4: np.array([18, 24, 30, 36]), 6: np.array([12, 15, 18, 21]), 8: np.array([6, 7, 9, 11])}
+"""Steps of the motion, by order: between those that sweeps do not solve and round-off."""
+
+VELOCITY = np.array([0.5, -0.2, 0.1, 0.3, -0.2, 0.6])
+
+
+def tether(parameters, pose, time):
+    """A spring to the origin that becomes stiffer with time."""
+    pull = scale(-parameters[0] * (1.0 + time), pose_position(pose))
+    return Spatial((0.0, 0.0, 0.0), rotate_inverse(pose.real, pull))
+
+
+FORCES = {
+    "weight, buoyancy and linear damping": ("bluerov2_heavy", {}),
+    "a current": ("bluerov2_heavy", {"current": (0.3, 0.2, 0.1)}),
+    "waves on a submerged body": ("bluerov2_heavy", {"weather": [Sea(Jonswap(1.0, 6.0), components=3)]}),
+    "a force of one's own": ("bluerov2_heavy", {"forces": [ForceTerm("tether", tether, (5.0,))]}),
+    "thrusters with lags": ("bluerov2_heavy", {"actuation": "thrusters"}),
+    "a waterplane": ("otter", {}),
+    "a hull of boxes": ("otter", {"hydrostatics": "hull"}),
+    "waves on a vessel": ("otter", {"weather": [Sea(Jonswap(0.1, 4.0), components=3)]}),
+    "gusts": ("otter", {"weather": [Wind(12.0, 2.0, gusts=True, components=3)]}),
+}
+
+COMPILED = "thrusters with lags"  # the compiled step alone moves actuators
+METHODS = [("gauss", 8), ("galerkin", 4), ("galerkin", 6), ("galerkin", 8)]
+CASES = [(*method, name) for method in METHODS for name in FORCES if name != COMPILED]
+PLAIN = [*CASES[: len(FORCES) - 1], ("galerkin", 6, "gusts")]
+
+
+def smooth(vehicle):
+    """The vehicle without drag in |v| v, whose kinks no method of high order crosses."""
+    linear = vehicle.damping.model_copy(update={"quadratic": (0.0,) * 6, "couplings": ()})
+    return vehicle.model_copy(update={"damping": linear, "cross_flow": ()})
+
+
+def end_of(vehicle, scheme, order, count, settings):
+    """Position, attitude and velocity after the motion, in so many steps."""
+    floats = vehicle.hydrostatics is not None
+    depth, duration, share = (0.0, 0.5, 0.3) if floats else (3.0, 1.4, 1.0)
+    scene = Scene(vehicle, step=duration / count, scheme=scheme, order=order, **settings)
+    driven = settings.get("actuation") == "thrusters"
+    body = scene.stepper() if driven else PlainBody(scene.composition, scene.parameters_at, scene.step)
+    body.reset((0.5, 0.2, depth), velocity_body=share * VELOCITY)
+    if driven:
+        body.actuate(np.linspace(-0.3, 0.3, len(body.command)), count)
+    else:
+        body.step(steps=count)
+    assert body.fallback_steps == 0
+    return np.concatenate([body.position_ned, body.quaternion_body_to_ned, body.velocity_body])
+
+
+@pytest.mark.parametrize(
+    ("scheme", "order", "name"),
+    sweep([*CASES, ("gauss", 8, COMPILED)], plain=PLAIN),
+)
+def test_the_order_is_that_of_the_method_under_every_force(scheme, order, name):
+    vehicle_name, settings = FORCES[name]
+    vehicle = smooth(load_vehicle(vehicle_name))
+    counts = COUNTS[order]
+    *ends, exact = [end_of(vehicle, scheme, order, int(n), settings) for n in (*counts, 4 * counts[-1])]
+    series = [np.abs(end - exact).max() for end in ends]
+    assert observed_order(1.0 / counts, series) == pytest.approx(order, abs=0.5), series
