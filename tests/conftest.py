@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 from support.child_compilation import compile_in_children
 
 pytest_plugins = ("support.browser", "support.sweeps", "support.compilations")
@@ -10,3 +12,12 @@ pytest_plugins = ("support.browser", "support.sweeps", "support.compilations")
 def pytest_configure() -> None:
     """Bound the memory of long runs."""
     compile_in_children()
+
+
+def pytest_collection_modifyitems(items) -> None:
+    """Begin with the files that take longest: a process that comes to one at the end would be alone with it."""
+    slow, every = Counter(), Counter()
+    for item in items:
+        every[item.path] += 1
+        slow[item.path] += item.get_closest_marker("slow") is not None
+    items.sort(key=lambda item: (-slow[item.path], -every[item.path]))

@@ -91,17 +91,17 @@ def make_in_pieces(composition: Composition, order: int, strang: Composition) ->
         inertia, damping, forces, water, timing = parameters
         pieces = 2
         while pieces <= PIECES:
-            h = timing.h / pieces
-            pose, momentum, report = step(parameters, time, h, state.pose, state.momentum, wrench)
-            worst, iterations = report.solver.relative_residual_squared, report.solver.iterations
-            done = 1
-            while done < pieces and usable(report):
-                pose, momentum, report = step(parameters, time + done * h, h, pose, momentum, wrench)
+            h, moved = timing.h / pieces, state
+            worst, iterations, done, fine = 0.0, 0, 0, True
+            while done < pieces and fine:
+                start = time + done * h
+                pose, momentum, report = step(parameters, start, h, moved.pose, moved.momentum, wrench)
+                moved, fine = BodyState(pose, momentum), usable(report)
                 worst = max(worst, report.solver.relative_residual_squared)
                 iterations += report.solver.iterations
                 done += 1
-            if usable(report):
-                return StepOutcome(BodyState(pose, momentum), ACCEPTED, 1, iterations, 1, worst)
+            if fine:
+                return StepOutcome(moved, ACCEPTED, 1, iterations, 1, worst)
             pieces *= 2
         timed = StepParameters(inertia, damping, forces, water, timing.piece)
         return advance_strang(timed, state, wrench, time, PIECES)

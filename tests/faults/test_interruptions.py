@@ -68,6 +68,7 @@ print(json.dumps(ends))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.sweep  # one that is killed once is in tests/agents/training/test_training.py
 def test_a_training_killed_three_times_at_any_moment_becomes_whole(tmp_path: Path) -> None:
     first, count = 0, 6

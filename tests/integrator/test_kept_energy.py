@@ -51,6 +51,7 @@ def worst_gain(energy):
     return relative_changes(energy).max(initial=0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("bodies", "steps"), sweep([(200, STEPS), (10_000, 100)], plain=[(200, STEPS)]))
 def test_wild_free_bodies_keep_energy_and_momentum(bodies, steps):
     worst, longest, refused = 0.0, 0.0, 0
@@ -69,6 +70,7 @@ def test_wild_free_bodies_keep_energy_and_momentum(bodies, steps):
     )  # which meet a step that no number of pieces takes through, sooner or later
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bodies", sweep([100, 10_000], plain=[100]))
 def test_wild_damped_bodies_gain_no_energy(bodies):
     """Beyond what the free part of a step may add; where damping matters, that is nothing at all."""

@@ -105,6 +105,7 @@ def test_bodies_are_placed_with_the_same_bits_by_the_plainest_numpy() -> None:
 
 
 @on_x86
+@pytest.mark.slow
 @pytest.mark.sweep
 @pytest.mark.parametrize("variables", variants())
 def test_flights_and_episodes_have_the_same_bits_on_all_processors(variables: dict[str, str]) -> None:

@@ -1,6 +1,6 @@
 """Compiling in a child process, which takes the compiler's memory with it when it ends.
 
-What Numba compiles it never gives back: some 100 MB for each step that is composed anew, and the tests compose
+What Numba compiles it never gives back: some 40 MB for each step that is composed anew, and the tests compose
 hundreds. A child finds all that its parent has compiled, adds what is missing to the cache on disk, and ends; the
 parent loads it.
 """
@@ -13,9 +13,10 @@ from pathlib import Path
 
 from numba.core.dispatcher import Dispatcher
 
-ENOUGH = 1.2e9
-"""Bytes from which on a process has others compile: all that most steps share is compiled by then."""
-
+PAGE = os.sysconf("SC_PAGESIZE")
+ENOUGH = max(1.2e9, os.sysconf("SC_PHYS_PAGES") * PAGE / 8.0)
+"""Bytes from which on a process has others compile. Each of them compiles what this one has not, shared parts too: it
+is better to have compiled much, and two processes run the tests."""
 
 HERE = "DQ_MARINE_TESTS_COMPILE_HERE"
 """Variable of the environment: if it is set, no child is asked, so that what was compiled can be looked at."""
@@ -24,7 +25,7 @@ HERE = "DQ_MARINE_TESTS_COMPILE_HERE"
 def memory_held() -> int:
     """Return the bytes that this process has in memory; 0 where there is no /proc."""
     try:
-        return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE")
+        return int(Path("/proc/self/statm").read_text().split()[1]) * PAGE
     except OSError:
         return 0
 

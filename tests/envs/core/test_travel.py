@@ -36,6 +36,7 @@ CASES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("task", "keywords", "count"),
     sweep(CASES, plain=[(STATION_KEEPING, "some", 0), (STATION_KEEPING, "some", 3)]),
