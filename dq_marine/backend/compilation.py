@@ -19,6 +19,7 @@ import dq_marine.backend.stages  # noqa: F401  gives compiled code what `algebra
 from dq_marine.backend.disk_cache import keep_on_disk
 from dq_marine.backend.garbage import collect_garbage_rarely_while_compiling
 from dq_marine.backend.inlining import INLINED
+from dq_marine.backend.parts import PARTS
 from dq_marine.backend.selection import PROVIDED
 
 CONSTANT_TYPES = (bool, int, float, complex, str, tuple, np.ndarray)
@@ -82,6 +83,7 @@ def make_compilable(function: FunctionType) -> None:
     """Let compiled code call a plain function, which stays plain Python."""
     if function not in _COMPILED_APART and function not in PROVIDED:
         register_jitable(**INLINED)(function)
+        PARTS[function] = key_of_part
 
 
 @functools.cache
@@ -109,6 +111,18 @@ def name_of(function: Callable[..., Any]) -> str:
     return f"{name}[{inner}]" if inner else name
 
 
+def key_and_fingerprint(function: Callable[..., Any], layout: str) -> tuple[str, str]:
+    """Return what tells a function from all others of the same sources, and a hash over these."""
+    parts: list[Callable[..., Any]] = [function, *all_used_functions(function)]
+    key = "|".join([name_of(function), layout, *map(constants_of, parts), *map(code_of, parts)])
+    return key, source_fingerprint(parts)
+
+
+def key_of_part(function: Callable[..., Any]) -> tuple[str, str]:
+    """Return the same of a function that goes into others, whatever it is called with."""
+    return key_and_fingerprint(function, "part")
+
+
 def compile_function(
     function: Callable[..., Any], layout: str, apart: tuple[Callable[..., Any], ...] = ()
 ) -> Callable[..., Any]:
@@ -133,9 +147,7 @@ def compile_function(
     for part in used:
         make_compilable(part)
     compiled = numba.njit(error_model="numpy", nogil=True, no_cfunc_wrapper=True)(function)
-    parts: list[Callable[..., Any]] = [function, *used]
-    key = "|".join([name_of(function), layout, *map(constants_of, parts), *map(code_of, parts)])
-    keep_on_disk(compiled, function, key, source_fingerprint(parts))
+    keep_on_disk(compiled, function, *key_and_fingerprint(function, layout))
     return compiled
 
 

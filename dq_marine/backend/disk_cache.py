@@ -14,7 +14,7 @@ import os
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 
@@ -50,17 +50,46 @@ def keep_on_disk(compiled: Any, function: Callable[..., Any], key: str, fingerpr
         key: tells the function from all others of the same sources.
         fingerprint: of the sources.
     """
+    cache = open_cache(function, key, fingerprint)
+    if cache is not None:
+        compiled._cache = cache
+
+
+def open_cache(
+    function: Callable[..., Any], key: str, fingerprint: str, form: Form | None = None
+) -> CompositionCache | None:
+    """Return where a function's compiled code is kept on disk; None where it cannot be.
+
+    Args:
+        function: what is compiled.
+        key: tells the function from all others of the same sources.
+        fingerprint: of the sources.
+        form: in which it is kept; None for Numba's own.
+    """
     try:
         folder = cache_directory()
     except InvalidInputError as error:
         _announce_homeless(str(error))
-        return
+        return None
     if not _writable(folder):
-        return
+        return None
     try:
-        compiled._cache = _CompositionCache(function, key, fingerprint)
+        return CompositionCache(function, key, fingerprint, form)
     except Exception as error:  # Numba's own, of a version that is made otherwise
         _announce_failure("kept", _reason(error))
+        return None
+
+
+class Form(NamedTuple):
+    """How compiled code is written down.
+
+    Attributes:
+        reduce: (what was compiled) -> what is pickled; None if it is not to be kept.
+        rebuild: (Numba's target, what was pickled) -> what was compiled.
+    """
+
+    reduce: Callable[[Any], tuple[Any, ...] | None]
+    rebuild: Callable[..., Any]
 
 
 class _Locator(_CacheLocator):
@@ -80,14 +109,16 @@ class _Locator(_CacheLocator):
         return "dq"
 
 
-class _CompositionCache(FunctionCache):
+class CompositionCache(FunctionCache):
     """Numba's cache with a key that follows the composition.
 
     Numba keys a closure on a pickle of its cells, which differs from process to process when a cell holds a
     function; here the functions' names and constants stand for them, and the fingerprint for their text.
     """
 
-    def __init__(self, function: Callable[..., Any], key: str, fingerprint: str) -> None:
+    def __init__(
+        self, function: Callable[..., Any], key: str, fingerprint: str, form: Form | None = None
+    ) -> None:
         folder = cache_directory() / fingerprint
         base = hashlib.sha256(key.encode()).hexdigest()[:20]
 
@@ -104,7 +135,18 @@ class _CompositionCache(FunctionCache):
                     return False
                 return True
 
-        self._impl_class = Implementation
+        class OtherForm(Implementation):
+            def check_cachable(self, cres: Any) -> bool:
+                return form is not None and form.reduce(cres) is not None
+
+            def reduce(self, cres: Any) -> Any:
+                return form.reduce(cres) if form else None
+
+            def rebuild(self, target_context: Any, payload: Any) -> Any:
+                return form.rebuild(target_context, *payload) if form else None
+
+        self._impl_class = OtherForm if form else Implementation
+        self.identity = hashlib.sha256(f"{fingerprint}|{key}".encode()).hexdigest()[:16]
         self._key = key
         self._files = folder, base
         super().__init__(function)

@@ -14,11 +14,14 @@ from dq_marine.backend.inlining import INLINED, TRIED_VERSIONS, inlining_options
 PROGRAM = """
 import numba
 numba.version_info = numba.version_info._replace(short={short})
+from numba.core.typed_passes import NativeLowering
+lowered, run_pass = [], NativeLowering.run_pass
+NativeLowering.run_pass = lambda step, state: lowered.append(state.func_id.func_qualname) or run_pass(step, state)
 from dq_marine.backend.inlining import INLINED
 from dq_marine.simulation.scene import Scene
-body = Scene(current=(0.1, 0.2, 0.0)).stepper()
+body = Scene(current={current}).stepper()
 body.step((1.0, 2.0, 0.0, 0.1, 0.0, 0.3), 50)
-print("pipeline_class" in INLINED, body.position_ned.tobytes().hex(), body.velocity_body.tobytes().hex())
+print("pipeline_class" in INLINED, len(lowered), body.get_state().tobytes().hex())
 """
 
 
@@ -69,15 +72,21 @@ def test_the_installed_numba_was_tried():
     assert numba.version_info.short in TRIED_VERSIONS
 
 
-def test_other_versions_compile_as_they_always_did_and_to_the_same_bits(tmp_path, monkeypatch):
-    def run(short):
-        monkeypatch.setenv("DQ_MARINE_CACHE_DIR", str(tmp_path / "_".join(map(str, short))))
-        program = PROGRAM.format(short=short)
+def test_parts_that_scenes_share_are_kept_and_other_versions_compile_to_the_same_bits(tmp_path, monkeypatch):
+    def run(cache, short, current):
+        monkeypatch.setenv("DQ_MARINE_CACHE_DIR", str(tmp_path / cache))
+        program = PROGRAM.format(short=short, current=current)
         done = subprocess.run(
             [sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=300
         )
-        return done.stdout.split()
+        links, lowered, state = done.stdout.split()
+        return links == "True", int(lowered), state
 
-    quick, plain = run(numba.version_info.short), run((0, 0))
-    assert (quick[0], plain[0]) == ("True", "False")
-    assert quick[1:] == plain[1:]
+    flow = (0.1, 0.2, 0.0)
+    _, first, _ = run("kept", numba.version_info.short, (0.0, 0.0, 0.0))
+    links, second, state = run("kept", numba.version_info.short, flow)
+    plainly_links, plainly, plain_state = run("plain", (0, 0), flow)
+    assert (links, plainly_links) == (True, False)
+    assert second < 0.25 * first
+    assert second < 0.25 * plainly
+    assert state == plain_state
