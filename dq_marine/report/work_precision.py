@@ -157,8 +157,9 @@ def seconds_each(call: Timing, first: Timing | None, count: int) -> Timing:
     """Return the time of a step, from that of a call of `count` and, if the call itself counts, of one of one."""
     if first is None or first.best >= call.best:
         return call.per(count)
+    least = call.best - first.best  # whatever the slower samples, which tell of the machine, come to
     pairs = zip(sorted(call.samples), sorted(first.samples), strict=True)
-    return Timing(tuple(many - one for many, one in pairs), call.cores).per(count - 1)
+    return Timing(tuple(max(least, many - one) for many, one in pairs), call.cores).per(count - 1)
 
 
 def timed_calls(case: Case, method: Method, steps: int) -> dict[int, Timed]:

@@ -15,6 +15,7 @@ from dq_marine.report.methods import METHODS
 from dq_marine.report.physics import Physics
 from dq_marine.report.plan import Plan, find
 from dq_marine.report.registry import STUDIES
+from dq_marine.report.timing import Timing
 from dq_marine.report.trial import BLEW_UP, DONE, evaluations_of, trial
 
 SPHEROID = Physics(np.diag([35.39387824, 60.86052274, 60.86052274, 0.20453077, 2.79541877, 2.79541877]))
@@ -269,3 +270,18 @@ def test_times_are_taken_of_every_step_size_that_works() -> None:
     fine, coarse = (find(rows, method="dqvi2", steps=steps)[0]["best_ns"] for steps in (5120, 80))
     assert fine > 10.0 * coarse
     assert all("best_ns" not in row for row in without_timings(rows))
+
+
+@pytest.mark.parametrize(
+    ("many", "one", "best"),
+    [
+        ((9.0, 5.0, 7.0), (1.0, 2.0, 3.0), 1.0),  # four steps more than one
+        ((5.0, 5.1, 5.2), (1.0, 8.0, 9.0), 1.0),  # the machine was busy with something else
+        ((3.0, 3.0, 3.0), (4.0, 3.5, 3.0), 0.6),  # the call itself cannot be told from the steps
+    ],
+)
+def test_the_time_of_a_step_is_never_less_than_nothing(many, one, best):
+    each = work_precision.seconds_each(Timing(many, 1.0), Timing(one, 1.0), 5)
+    assert each.best == pytest.approx(best)
+    assert each.median >= each.best > 0.0
+    assert work_precision.seconds_each(Timing(many, 1.0), None, 5).best == pytest.approx(min(many) / 5)
