@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+from numba.core.compiler import CompileResult
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.announce import announce
@@ -41,6 +42,32 @@ def cache_directory() -> Path:
         ) from error
 
 
+class Form(NamedTuple):
+    """How compiled code is written down.
+
+    Attributes:
+        keepable: (what was compiled) -> whether another process can load it.
+        reduce: (what was compiled) -> what is pickled.
+        rebuild: (Numba's target, *what was pickled) -> what was compiled.
+    """
+
+    keepable: Callable[[CompileResult], bool]
+    reduce: Callable[[CompileResult], tuple[Any, ...]]
+    rebuild: Callable[..., CompileResult]
+
+
+def has_no_addresses(compiled: CompileResult) -> bool:
+    """Whether machine code can be loaded by another process. Numba's own check warns of a file that we have not."""
+    if compiled.library.has_dynamic_globals:
+        _announce_failure("kept", "it holds addresses of this process, as with NUMBA_OPT=0")
+        return False
+    return True
+
+
+MACHINE_CODE = Form(has_no_addresses, CompileResult._reduce, CompileResult._rebuild)
+"""Numba's own form."""
+
+
 def keep_on_disk(compiled: Any, function: Callable[..., Any], key: str, fingerprint: str) -> None:
     """Let a dispatcher of Numba's load its code from disk, and keep there what it compiles.
 
@@ -56,7 +83,7 @@ def keep_on_disk(compiled: Any, function: Callable[..., Any], key: str, fingerpr
 
 
 def open_cache(
-    function: Callable[..., Any], key: str, fingerprint: str, form: Form | None = None
+    function: Callable[..., Any], key: str, fingerprint: str, form: Form = MACHINE_CODE
 ) -> CompositionCache | None:
     """Return where a function's compiled code is kept on disk; None where it cannot be.
 
@@ -64,7 +91,7 @@ def open_cache(
         function: what is compiled.
         key: tells the function from all others of the same sources.
         fingerprint: of the sources.
-        form: in which it is kept; None for Numba's own.
+        form: in which it is kept.
     """
     try:
         folder = cache_directory()
@@ -78,18 +105,6 @@ def open_cache(
     except Exception as error:  # Numba's own, of a version that is made otherwise
         _announce_failure("kept", _reason(error))
         return None
-
-
-class Form(NamedTuple):
-    """How compiled code is written down.
-
-    Attributes:
-        reduce: (what was compiled) -> what is pickled; None if it is not to be kept.
-        rebuild: (Numba's target, what was pickled) -> what was compiled.
-    """
-
-    reduce: Callable[[Any], tuple[Any, ...] | None]
-    rebuild: Callable[..., Any]
 
 
 class _Locator(_CacheLocator):
@@ -117,7 +132,7 @@ class CompositionCache(FunctionCache):
     """
 
     def __init__(
-        self, function: Callable[..., Any], key: str, fingerprint: str, form: Form | None = None
+        self, function: Callable[..., Any], key: str, fingerprint: str, form: Form = MACHINE_CODE
     ) -> None:
         folder = cache_directory() / fingerprint
         base = hashlib.sha256(key.encode()).hexdigest()[:20]
@@ -128,24 +143,16 @@ class CompositionCache(FunctionCache):
                 self._locator = _Locator(folder, fingerprint)
                 self._filename_base = base
 
-            def check_cachable(self, cres: Any) -> bool:
-                """Whether another process can load it. Numba's own method warns, of a file that this has not."""
-                if cres.library.has_dynamic_globals:
-                    _announce_failure("kept", "it holds addresses of this process, as with NUMBA_OPT=0")
-                    return False
-                return True
+            def check_cachable(self, cres: CompileResult) -> bool:
+                return form.keepable(cres)
 
-        class OtherForm(Implementation):
-            def check_cachable(self, cres: Any) -> bool:
-                return form is not None and form.reduce(cres) is not None
+            def reduce(self, cres: CompileResult) -> tuple[Any, ...]:
+                return form.reduce(cres)
 
-            def reduce(self, cres: Any) -> Any:
-                return form.reduce(cres) if form else None
+            def rebuild(self, target_context: Any, payload: tuple[Any, ...]) -> CompileResult:
+                return form.rebuild(target_context, *payload)
 
-            def rebuild(self, target_context: Any, payload: Any) -> Any:
-                return form.rebuild(target_context, *payload) if form else None
-
-        self._impl_class = OtherForm if form else Implementation
+        self._impl_class = Implementation
         self.identity = hashlib.sha256(f"{fingerprint}|{key}".encode()).hexdigest()[:16]
         self._key = key
         self._files = folder, base

@@ -21,6 +21,7 @@ from numba.core.typed_passes import NativeLowering
 from numba.core.untyped_passes import ExtractByteCode
 
 from dq_marine.backend.disk_cache import CompositionCache, Form, open_cache
+from dq_marine.backend.fingerprint import key_and_fingerprint
 from dq_marine.backend.lane_type import Lanes
 from dq_marine.backend.parts import PARTS
 
@@ -62,17 +63,20 @@ class LinkedLowering(NativeLowering):
         return True
 
 
-def reduced(compiled: CompileResult) -> tuple[Any, ...] | None:
-    """Return what is kept of a function; None unless all that it calls went into it.
+def is_whole(compiled: CompileResult) -> bool:
+    """Whether all that a function calls went into it.
 
     What did not has a name that Numba counted out in this process, and another process may have given to another.
     """
-    described, library = compiled.fndesc, compiled.library
+    library = compiled.library
     library._ensure_finalized()
-    if library.has_dynamic_globals or any(
-        described.mangled_name != function.name for function in library.get_defined_functions()
-    ):
-        return None
+    names = [function.name for function in library.get_defined_functions()]
+    return names == [compiled.fndesc.mangled_name] and not library.has_dynamic_globals
+
+
+def reduced(compiled: CompileResult) -> tuple[Any, ...]:
+    """Return what is kept of a function."""
+    described, library = compiled.fndesc, compiled.library
     described.typemap = described.calltypes = None  # as for Numba's own cache: they may not be pickled
     return library.name, library._final_module.as_bitcode(), described, compiled.signature
 
@@ -97,10 +101,14 @@ def rebuilt(target: Any, name: str, bitcode: bytes, described: Any, signature: A
     )
 
 
+LINKED = Form(keepable=is_whole, reduce=reduced, rebuild=rebuilt)
+"""How such functions are written down."""
+
+
 @functools.cache
 def made_of(function: Callable[..., Any]) -> tuple[str, str]:
-    """Return the key and the fingerprint of a part."""
-    return PARTS[function](function)
+    """Return the key and the fingerprint of a part, whatever it is called with."""
+    return key_and_fingerprint(function, "part")
 
 
 def cache_of(function: Callable[..., Any], state: Any) -> CompositionCache | None:
@@ -111,7 +119,7 @@ def cache_of(function: Callable[..., Any], state: Any) -> CompositionCache | Non
     if function not in PARTS or not all(is_plain(kind) for kind in state.args):
         return None
     key, fingerprint = made_of(function)
-    return open_cache(function, f"{key}|{state.args}|{state.flags}", fingerprint, Form(reduced, rebuilt))
+    return open_cache(function, f"{key}|{state.args}|{state.flags}", fingerprint, LINKED)
 
 
 def is_plain(kind: types.Type) -> bool:

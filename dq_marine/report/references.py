@@ -17,8 +17,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.backend.compilation import all_used_functions, constants_of, text_of
 from dq_marine.backend.disk_cache import cache_directory
+from dq_marine.backend.fingerprint import all_used_functions, constants_of, text_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.report import closed_forms, ode
 from dq_marine.report.cases import Case

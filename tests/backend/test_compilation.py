@@ -13,7 +13,7 @@ from support.counting import counted, operations_of
 
 import dq_marine
 from dq_marine.algebra.spatial import from_fossen
-from dq_marine.backend.compilation import all_used_functions
+from dq_marine.backend.fingerprint import all_used_functions
 from dq_marine.integrator.kick import undamped_kick
 from dq_marine.integrator.midpoint_drift import midpoint_drift, midpoint_fallback
 from dq_marine.integrator.step import Composition, make_advance

@@ -55,7 +55,7 @@ CASES = {
     "order 4, damped": {"order": 4, "linear": np.eye(6), "quadratic": QUADRATIC},
     "order 6, paper": {"order": 6, "scheme": "paper", "current": CURRENT, **GRAVITY},
     "order 4, forces": {"order": 4, "forces": FORCES},
-    "galerkin, free": {"order": 4, "scheme": "galerkin", "current": CURRENT},
+    "galerkin, free": {"order": 8, "scheme": "galerkin", "current": CURRENT},
     "galerkin, everything": {
         "order": 4,
         "scheme": "galerkin",

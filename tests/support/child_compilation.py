@@ -7,14 +7,17 @@ parent loads it.
 
 from __future__ import annotations
 
+import mmap
 import os
 import warnings
 from pathlib import Path
 
 from numba.core.dispatcher import Dispatcher
 
-PAGE = os.sysconf("SC_PAGESIZE")
-ENOUGH = max(1.2e9, os.sysconf("SC_PHYS_PAGES") * PAGE / 8.0)
+PROC = Path("/proc/self/statm")
+"""Where Linux says what memory a process holds, in pages. Elsewhere every process compiles for itself."""
+
+ENOUGH = max(1.2e9, os.sysconf("SC_PHYS_PAGES") * mmap.PAGESIZE / 8.0) if PROC.exists() else 1.2e9
 """Bytes from which on a process has others compile. Each of them compiles what this one has not, shared parts too: it
 is better to have compiled much, and two processes run the tests."""
 
@@ -25,7 +28,7 @@ HERE = "DQ_MARINE_TESTS_COMPILE_HERE"
 def memory_held() -> int:
     """Return the bytes that this process has in memory; 0 where there is no /proc."""
     try:
-        return int(Path("/proc/self/statm").read_text().split()[1]) * PAGE
+        return int(PROC.read_text().split()[1]) * mmap.PAGESIZE
     except OSError:
         return 0
 
