@@ -174,5 +174,5 @@ def has_negative_real_eigenvalue(a: Matrix3) -> bool:
 
 
 def invert(a: Matrix3) -> Matrix3:
-    """Return the inverse of a; infinite or NaN components where a is singular."""
+    """Return the inverse of a; infinite or NaN components where a is singular (Python's own floats raise there)."""
     return matrix_scale(1.0 / determinant(a), adjugate(a))

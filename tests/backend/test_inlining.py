@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numba.core.codegen import JITCodeLibrary
 from numba.extending import register_jitable
+from support.sweeps import sweep
 
 from dq_marine.backend.inlining import INLINED, TRIED_VERSIONS, inlining_options
 
@@ -18,10 +19,39 @@ from numba.core.typed_passes import NativeLowering
 lowered, run_pass = [], NativeLowering.run_pass
 NativeLowering.run_pass = lambda step, state: lowered.append(state.func_id.func_qualname) or run_pass(step, state)
 from dq_marine.backend.inlining import INLINED
+{composition}
+print("pipeline_class" in INLINED, len(lowered), result.hex())
+"""
+
+POSES = """
+import numpy as np
+from dq_marine.algebra.dual_quaternion import dual_conjugate, dual_multiply, pose_position, pose_renormalise
+from dq_marine.algebra.screw import pose_exp
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.backend.compilation import compile_function
+
+def there(motion, times):
+    pose = step = pose_exp(motion)
+    for _ in range(times):
+        pose = pose_renormalise(dual_multiply(pose, step))
+    return pose_position(pose)
+
+def back(motion, times):
+    pose = step = pose_exp(motion)
+    for _ in range(times):
+        pose = pose_renormalise(dual_multiply(dual_conjugate(step), pose))
+    return pose_position(pose)
+
+motion = Spatial((0.1, 0.2, 0.3), (1.0, 0.0, 2.0))
+result = np.array(compile_function({}, "test")(motion, 9)).tobytes()
+"""
+"""Two functions that share most of what they are made of."""
+
+SCENES = """
 from dq_marine.simulation.scene import Scene
-body = Scene(current={current}).stepper()
+body = Scene(current={}).stepper()
 body.step((1.0, 2.0, 0.0, 0.1, 0.0, 0.3), 50)
-print("pipeline_class" in INLINED, len(lowered), body.get_state().tobytes().hex())
+result = body.get_state().tobytes()
 """
 
 
@@ -72,21 +102,29 @@ def test_the_installed_numba_was_tried():
     assert numba.version_info.short in TRIED_VERSIONS
 
 
-def test_parts_that_scenes_share_are_kept_and_other_versions_compile_to_the_same_bits(tmp_path, monkeypatch):
-    def run(cache, short, current):
+@pytest.mark.parametrize(
+    ("program", "first", "second"),
+    sweep(
+        [(POSES, "there", "back"), (SCENES, (0.0, 0.0, 0.0), (0.1, 0.2, 0.0))],
+        plain=[(POSES, "there", "back")],
+    ),
+)
+def test_parts_that_are_shared_are_kept_and_other_versions_compile_to_the_same_bits(
+    tmp_path, monkeypatch, program, first, second
+):
+    def run(cache, short, chosen):
         monkeypatch.setenv("DQ_MARINE_CACHE_DIR", str(tmp_path / cache))
-        program = PROGRAM.format(short=short, current=current)
+        source = PROGRAM.format(short=short, composition=program.format(chosen))
         done = subprocess.run(
-            [sys.executable, "-c", program], capture_output=True, text=True, check=True, timeout=300
+            [sys.executable, "-c", source], capture_output=True, text=True, check=True, timeout=300
         )
-        links, lowered, state = done.stdout.split()
-        return links == "True", int(lowered), state
+        links, lowered, result = done.stdout.split()
+        return links == "True", int(lowered), result
 
-    flow = (0.1, 0.2, 0.0)
-    _, first, _ = run("kept", numba.version_info.short, (0.0, 0.0, 0.0))
-    links, second, state = run("kept", numba.version_info.short, flow)
-    plainly_links, plainly, plain_state = run("plain", (0, 0), flow)
+    _, lowered_first, _ = run("kept", numba.version_info.short, first)
+    links, lowered_second, result = run("kept", numba.version_info.short, second)
+    plainly_links, lowered_plainly, plain_result = run("plain", (0, 0), second)
     assert (links, plainly_links) == (True, False)
-    assert second < 0.25 * first
-    assert second < 0.25 * plainly
-    assert state == plain_state
+    assert lowered_second < 0.25 * lowered_first
+    assert lowered_second < 0.25 * lowered_plainly
+    assert result == plain_result
