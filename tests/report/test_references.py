@@ -86,7 +86,9 @@ def test_the_integral_of_the_third_kind(amplitude):
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=pytest.mark.slow) if name.endswith(("x30", "x1000")) else name
+        pytest.param(name, marks=[pytest.mark.slow, pytest.mark.sweep])
+        if name.endswith(("x30", "x1000"))
+        else name
         for name in CASES
     ],
 )

@@ -46,12 +46,15 @@ def scene(viewer: LiveViewer) -> list[bytes]:
     """What a page that connects now is told: the whole scene."""
     received: list[bytes] = []
     with connect(viewer.url.replace("http://", "ws://") + "socket") as page:
+        answered = page.ping()  # after all that a page is told when it connects
         while True:
             try:
-                message = page.recv(timeout=1.0)
+                message = page.recv(timeout=0.05)
             except TimeoutError:
-                return sorted(received)
-            received.append(message if isinstance(message, bytes) else message.encode())
+                if answered.is_set():
+                    return sorted(received)
+            else:
+                received.append(message if isinstance(message, bytes) else message.encode())
 
 
 @contextmanager
