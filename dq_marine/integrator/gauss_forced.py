@@ -44,7 +44,7 @@ from dq_marine.algebra.spatial import (
     spatial_dot,
     spatial_scale,
 )
-from dq_marine.algebra.stages import each_stage, stage_constants, stage_sum
+from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
@@ -68,13 +68,12 @@ class Place(NamedTuple):
 
 
 class ForcedStage(NamedTuple):
-    """One evaluation of (G7) and of the rates in (G8): these, h^2 F, h times the twist, and where it was made."""
+    """One evaluation of (G7) and of the rates in (G8): these, h^2 F, h times the twist, and the attitude there."""
 
     rate: Place
     wrench: Spatial
     twist: Spatial
     attitude: Quaternion
-    way: Vector3
 
 
 class Surroundings(NamedTuple):
@@ -123,11 +122,11 @@ def turned_to_world(q: Quaternion, a: Vector3) -> Vector3:
     return add_scaled(a, 2.0 / quaternion_dot(q, q), turn)
 
 
-def impulse(stage: ForcedStage) -> Spatial:
+def impulse(stage: ForcedStage, way: Vector3) -> Spatial:
     """Return a stage's h^2 F in world axes, about the step's start (G9)."""
     force = turned_to_world(stage.attitude, stage.wrench.linear)
     moment = turned_to_world(stage.attitude, stage.wrench.angular)
-    return Spatial(add(moment, cross(stage.way, force)), force)
+    return Spatial(add(moment, cross(way, force)), force)
 
 
 def make_forces(composition: Composition) -> Callable[[Surroundings, Place, Spatial], Spatial]:
@@ -211,7 +210,7 @@ def make_forced_step(composition: Composition, method: Collocation) -> Step:
             turned(place.attitude, scale(0.5, twist.angular)),  # (G8)
             rotate(place.attitude, twist.linear),
         )
-        return ForcedStage(rate, wrench, twist, place.attitude, place.way)
+        return ForcedStage(rate, wrench, twist, place.attitude)
 
     sweeps = make_sweeps(method, evaluate, moved_place, place_extent, loose=True)
 
@@ -237,7 +236,9 @@ def make_forced_step(composition: Composition, method: Collocation) -> Step:
         around = Surroundings(parameters, length_squared, size, h, position, wrench, times, elapsed)
         found, report = sweeps(around, start, begun, size)
         end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
-        given = stage_sum(weights, each_stage(weights, impulse, (found,)))  # (G9)
+        # The ways are computed after the sweeps: where no force asks for the position, these go without them.
+        ways = stage_product(method.matrix, found.rate.way)
+        given = stage_sum(weights, each_stage(weights, impulse, (found, ways)))  # (G9)
         work = spatial_dot(wrench, stage_sum(weights, found.twist))
         pushed = spatial_add(start.momentum, to_body(pose.real, given))
         increment = consistent_twice(math.sqrt(length_squared), motion(start, end), pushed, end.momentum)

@@ -57,6 +57,7 @@ another branch."""
 def units(plan: Plan) -> list[Unit]:
     """Return a unit a step size and speed."""
     refinements = plan.pick(REFINEMENTS, REFINEMENTS[:-1])
+    methods = list(plan.pick(METHODS, UNSWEPT).values())
 
     def group(cell: Cell) -> tuple[float, float]:
         return cell.step, cell.levels["speed"]
@@ -68,21 +69,21 @@ def units(plan: Plan) -> list[Unit]:
         found.append(
             Unit(
                 f"step{step:g}-speed{speed:g}",
-                partial(rows_of, listed, refinements),
-                summary(plan) | {"refinements": list(refinements)},
-                weight=len(listed) * 0.15,
+                partial(rows_of, listed, methods, refinements),
+                summary(plan) | {"refinements": list(refinements), "methods": [one.name for one in methods]},
+                weight=len(listed) * len(methods) * 0.014,
             )
         )
     return found
 
 
 @overflow_allowed
-def rows_of(members: list[Cell], refinements: tuple[int, ...]) -> Rows:
+def rows_of(members: list[Cell], methods: list[Method], refinements: tuple[int, ...]) -> Rows:
     """Return what becomes of some motions, by each method."""
     rows: Rows = []
     for cell in members:
         exact = exact_motion(cell, refinements)
-        for method in UNSWEPT.values():
+        for method in methods:
             if not method.refusal(cell.physics):
                 rows.append(row_of(cell, method, exact))
     return rows

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dq_marine.report.cases import CASES, Case
 from dq_marine.report.invariants import energy, momentum_errors
-from dq_marine.report.methods import UNSWEPT, Method
+from dq_marine.report.methods import METHODS, UNSWEPT, Method
 from dq_marine.report.plan import Plan, Rows, Study, Unit
 from dq_marine.report.showing.long_run_view import checks, drawings, findings, tables
 from dq_marine.report.trial import DONE, evaluations_of, finite, overflow_allowed, trial
@@ -54,7 +54,7 @@ def units(plan: Plan) -> list[Unit]:
             weight=total * evaluations_of(method, case.physics) * 4e-7,
         )
         for name, case in long_cases().items()
-        for method in UNSWEPT.values()
+        for method in plan.pick(METHODS, UNSWEPT).values()
         if not method.refusal(case.physics)
         for step in STEPS
     ]

@@ -177,7 +177,7 @@ METHODS = {
 """The methods by name. With damping, DQVI of order 4 is extrapolation, with 2 + 3 kicks, instead of composition."""
 
 SWEPT = tuple(name for name, method in METHODS.items() if method.evaluations == BY_SWEEPS)
-"""Methods that solve a step by sweeps: the study of error against cost has them, the others not yet."""
+"""Methods that solve a step by sweeps."""
 
 UNSWEPT = {name: method for name, method in METHODS.items() if name not in SWEPT}
-"""All other methods, by name."""
+"""All other methods, by name: those of a quick report, for methods by sweeps take longest to compile."""

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from dq_marine.report.cases import CASES
-from dq_marine.report.methods import UNSWEPT, Method
+from dq_marine.report.methods import METHODS, UNSWEPT, Method
 from dq_marine.report.physics import Physics
 from dq_marine.report.plan import Plan, Rows, Study, Unit
 from dq_marine.report.showing.stability_view import checks, drawings, findings, tables
@@ -61,7 +61,7 @@ def units(plan: Plan) -> list[Unit]:
             weight=len(values) * halvings * (0.02 if kind == RESTORING else 0.004),
         )
         for kind, values in picks.items()
-        for method in UNSWEPT.values()
+        for method in plan.pick(METHODS, UNSWEPT).values()
         if not method.refusal(PHYSICS[kind](values[0]))
     ]
 

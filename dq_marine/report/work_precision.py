@@ -52,7 +52,7 @@ def units(plan: Plan) -> list[Unit]:
     for case in CASES.values():
         if not plan.wants(case.name):
             continue
-        known = plan.pick(METHODS, UNSWEPT)  # methods by sweeps take longest to compile
+        known = plan.pick(METHODS, UNSWEPT)
         methods = [method for method in known.values() if not method.refusal(case.physics)]
         settings: dict[str, Any] = case.summary() | {"levels": list(levels)}
         found += [

@@ -61,7 +61,7 @@ def fastest(wanted: str, curves: list[dict[str, Curve]], target: float) -> Choic
     cases = f"{len(curves)} cases" if len(curves) > 1 else "1 case"
     measured = f"{duration(reached[best] * 1e-9)} a simulated second, mean of {cases}"
     if own is None:
-        measured += "; no DQVI gets there"
+        measured += "; no method of this package gets there"
     elif own != best:
         measured += f"; {title_of(own)}: {factor(reached[own] / reached[best])} that"
     else:

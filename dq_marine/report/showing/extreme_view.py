@@ -198,8 +198,8 @@ def findings(rows: Rows) -> list[str]:
     if wrong:
         least = min(row["fallbacks"] / row["steps"] for row in wrong)
         sentences.append(
-            f"Where DQVI is wrong in silence, it needed the fallback for at least {least:.1f} solves a step: "
-            "`fallback_steps` tells that a step is far too large."
+            f"Where a method of this package is wrong in silence, it needed the fallback for at least {least:.1f} "
+            "solves a step: `fallback_steps` tells that a step is far too large."
         )
     return sentences
 
@@ -215,7 +215,7 @@ def gist(rows: Rows) -> str:
 
 
 def checks(rows: Rows) -> list[Check]:
-    """Return whether DQVI blew up anywhere, or solved a step on a wrong branch."""
+    """Return whether a method of this package blew up anywhere, or solved a step on a wrong branch."""
     found = []
     for name in in_order(set(distinct(rows, "method"))):
         own = find(rows, method=name)

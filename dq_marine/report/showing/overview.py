@@ -1,4 +1,4 @@
-"""One figure over all cases: how the fastest DQVI compares with RK4, by the error that is wanted."""
+"""One figure over all cases: how this package compares with RK4, by the error that is wanted."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def draw_overview(all_curves: dict[str, dict[str, Curve]]) -> Any:
         axes.axhline(1.0, color=INK, linewidth=1.0)
         axes.set_xlim(TARGETS[0], TARGETS[-1])
         axes.set_xlabel(f"{quantity} error wanted [{'rad' if quantity == 'attitude' else 'm'}]")
-    panels[0].set_ylabel(f"time of the fastest DQVI over\nthat of {title_of(BASELINE)}")
-    panels[0].text(0.02, 0.02, "below 1: DQVI is faster", transform=panels[0].transAxes, fontsize=8.5)
+    panels[0].set_ylabel(f"time of the fastest method over\nthat of {title_of(BASELINE)}")
+    panels[0].text(0.02, 0.02, "below 1: this package is faster", transform=panels[0].transAxes, fontsize=8.5)
     figure.legend(
         *panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, handlelength=3.4
     )

@@ -53,7 +53,7 @@ def drawings(rows: Rows) -> list[Drawing]:
     all_curves = {case: curves_of(rows, case) for case in distinct(rows, "case")}
     overview = Drawing(
         "work-precision-overview",
-        f"The fastest DQVI and {title_of(BASELINE)}, by the error that is wanted",
+        f"This package and {title_of(BASELINE)}, by the error that is wanted",
         "A line is drawn where both get there. Errors fall to the right.",
         partial(draw_overview, all_curves),
     )
@@ -118,10 +118,10 @@ def ratio_table(all_curves: dict[str, dict[str, Curve]], quantity: str) -> Table
     for case, curves in all_curves.items():
         lines.append([case_title(case), *(ratio_cell(curves, quantity, target) for target in TARGETS)])
     return Table(
-        f"Time of the fastest DQVI over that of {title_of(BASELINE)}, by {QUANTITIES[quantity]}",
+        f"Time of the fastest method of this package over that of {title_of(BASELINE)}, by {QUANTITIES[quantity]}",
         ["case", *(f"{power(target)}" for target in TARGETS)],
         lines,
-        "Below 1, DQVI is faster. In brackets the order of the fastest. Read off between measured points.",
+        "Below 1, this package is faster. In brackets the order of the fastest. Read off between measured points.",
     )
 
 
@@ -130,7 +130,7 @@ def ratio_cell(curves: dict[str, Curve], quantity: str, target: float) -> str:
     own = best_own(curves, quantity, target)
     baseline = curves[BASELINE].cost_at(quantity, target) if BASELINE in curves else None
     if own is None:
-        return "DQVI: not reached" if baseline is not None else NOT_REACHED
+        return "this package: not reached" if baseline is not None else NOT_REACHED
     if baseline is None:
         return f"RK4: not reached ({short(own[0])})"
     return f"{factor(own[1] / baseline)} ({short(own[0])})"
@@ -189,7 +189,7 @@ def time_cell(nanoseconds: float | None) -> str:
 
 
 def findings(rows: Rows) -> list[str]:
-    """Return where DQVI wins and loses against RK4, in numbers."""
+    """Return where this package wins and loses against RK4, in numbers."""
     all_curves = {case: curves_of(rows, case) for case in distinct(rows, "case")}
     found = [
         (case, target, ratio(curves, target)) for case, curves in all_curves.items() for target in TARGETS
@@ -199,8 +199,8 @@ def findings(rows: Rows) -> list[str]:
     if not known:
         return []
     gist = (
-        f"Of {len(known)} pairs of case and attitude error that DQVI or {title_of(BASELINE)} reaches, the fastest DQVI "
-        f"needs less time in {len(wins)}, and more in {len(known) - len(wins)}."
+        f"Of {len(known)} pairs of case and attitude error that this package or {title_of(BASELINE)} reaches, the "
+        f"fastest method of this package needs less time in {len(wins)}, and more in {len(known) - len(wins)}."
     )
     sentences = [
         gist,
@@ -211,14 +211,16 @@ def findings(rows: Rows) -> list[str]:
             f"{case_title(case)} ({', '.join(f'{power(t)}' for c, t in wins if c == case)})"
             for case, _ in wins
         ]
-        sentences.append(f"DQVI is ahead of {title_of(BASELINE)} on {listed(list(dict.fromkeys(names)))}.")
+        sentences.append(
+            f"This package is ahead of {title_of(BASELINE)} on {listed(list(dict.fromkeys(names)))}."
+        )
     return sentences
 
 
 def ratio(curves: dict[str, Curve], target: float) -> float | None:
-    """Return the time of the fastest DQVI over that of RK4 for an attitude error.
+    """Return the time of the fastest method of this package over that of RK4 for an attitude error.
 
-    Zero where RK4 does not reach it, infinite where DQVI does not, None where neither does.
+    Zero where RK4 does not reach it, infinite where the package does not, None where neither does.
     """
     own = best_own(curves, "attitude", target)
     baseline = curves[BASELINE].cost_at("attitude", target) if BASELINE in curves else None
@@ -228,7 +230,7 @@ def ratio(curves: dict[str, Curve], target: float) -> float | None:
 
 
 def sentence_of(kind: str, known: list[tuple[str, float, float]]) -> str:
-    """Return how DQVI and RK4 compare on one kind of motion."""
+    """Return how this package and RK4 compare on one kind of motion."""
     parts = []
     for target in TARGETS:
         values = [value for case, error, value in known if kind_of(case) == kind and error == target]
@@ -240,9 +242,9 @@ def sentence_of(kind: str, known: list[tuple[str, float, float]]) -> str:
         )
         alone, lacking = values.count(0.0), values.count(math.inf)
         text += f", where RK4 does not get in {alone} of {len(values)}" if alone else ""
-        text += f", where DQVI does not get in {lacking} of {len(values)}" if lacking else ""
+        text += f", where this package does not get in {lacking} of {len(values)}" if lacking else ""
         parts.append(text)
-    return f"Time of the fastest DQVI over that of {title_of(BASELINE)}, {kind}: {'; '.join(parts)}."
+    return f"Time of the fastest method of this package over that of {title_of(BASELINE)}, {kind}: {'; '.join(parts)}."
 
 
 def geometric_mean(values: list[float]) -> float:
