@@ -29,6 +29,7 @@ from dq_marine.integrator.step import (
     make_advance,
 )
 from dq_marine.integrator.strang import StrangTiming
+from dq_marine.integrator.water import at_stages
 
 PIECES = 8
 """Of a step that the sweeps do not solve: at most, of the same method, and of Strang's."""
@@ -42,25 +43,27 @@ class PiecesTiming(NamedTuple):
 
 
 def make_wrench(composition: Composition) -> Wrench:
-    """Return (parameters, pose, twist, time, wrench) -> the sum of all forces on a body."""
+    """Return (parameters, pose, twist, time, wrench) -> the sum of all forces on a body, of accelerated water too."""
     add_pose_forces = join_pose_forces(composition.pose_forces)
     add_velocity_forces = join_velocity_forces(composition.velocity_forces)
+    push = at_stages(composition.water).push
 
     def wrench_at(
         parameters: StepParameters, pose: DualQuaternion, twist: Spatial, time: float, wrench: Spatial
     ) -> Spatial:
         posed = add_pose_forces(parameters.forces[0], pose, time, wrench)
-        return add_velocity_forces(parameters.forces[1], pose, twist, time, posed)
+        acting = add_velocity_forces(parameters.forces[1], pose, twist, time, posed)
+        return push(parameters.water, pose, acting)
 
     return wrench_at
 
 
 def make_step(composition: Composition, order: int) -> Step:
     """Return one step; where nothing acts on a body, it is that of free motion."""
-    arrive = composition.water.arrive
+    carry = at_stages(composition.water).carry
     free_step = make_galerkin_drift(order // 2)
-    forced_step = make_forced_step(gauss(order // 2), make_wrench(composition), arrive)
-    forceless = not (composition.pose_forces or composition.velocity_forces)
+    forced_step = make_forced_step(gauss(order // 2), make_wrench(composition), carry)
+    forceless = composition.forceless
 
     def step(
         parameters: StepParameters,
@@ -74,8 +77,7 @@ def make_step(composition: Composition, order: int) -> Step:
             moved, carried, report = free_step(parameters.inertia, h, pose, momentum)
         else:
             moved, carried, report = forced_step(parameters, time, h, pose, momentum, wrench)
-        end = arrive(parameters.water, parameters.inertia, time, h, moved, carried)
-        return end.pose, end.momentum, report
+        return carry(parameters.water, time, h, moved), carried, report
 
     return step
 

@@ -49,7 +49,7 @@ from dq_marine.integrator.galerkin_sweeps import (
     scales_of,
 )
 from dq_marine.integrator.step import StepParameters
-from dq_marine.integrator.water import WaterMove
+from dq_marine.integrator.water import WaterCarry
 
 Wrench: TypeAlias = Callable[[StepParameters, DualQuaternion, Spatial, float, Spatial], Spatial]
 """(parameters, pose, twist, time, constant body wrench) -> all that acts on the body, as a wrench in its frame."""
@@ -86,7 +86,7 @@ class Flight(NamedTuple):
 
 
 def make_forced_node(
-    wrench_at: Wrench, carry: WaterMove
+    wrench_at: Wrench, carry: WaterCarry
 ) -> Callable[[Flight, float, ForcedRates], ForcedNode]:
     """Return (flight, part of the step that is over, half the sums of the rates) -> the node.
 
@@ -105,7 +105,7 @@ def make_forced_node(
         twist = matrix6_transform(parameters.inertia.inverse, momentum)  # (V3)
         unit = quaternion_scale(1.0 / math.sqrt(length_squared), gamma)
         pose = dual_multiply(flight.pose, pose_from_parts(unit, way))
-        there = carry(parameters.water, parameters.inertia, flight.time, part * h, pose, momentum).pose
+        there = carry(parameters.water, flight.time, part * h, pose)
         acting = wrench_at(
             parameters, there, spatial_scale(1.0 / h, twist), flight.time + part * h, flight.wrench
         )
@@ -137,7 +137,7 @@ def forced_change_squared(scales: Scales, after: ForcedRates, before: ForcedRate
     return moved + scales.pushing * dot(push, push)
 
 
-def make_forced_step(method: Collocation, wrench_at: Wrench, carry: WaterMove) -> Step:
+def make_forced_step(method: Collocation, wrench_at: Wrench, carry: WaterCarry) -> Step:
     """Return a step under forces.
 
     The report says nothing of the energy, which forces change.

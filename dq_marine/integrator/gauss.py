@@ -26,6 +26,7 @@ from dq_marine.integrator.step import (
     arrival,
     set_out,
 )
+from dq_marine.integrator.water import at_stages
 
 BATCH = 4
 """Free steps whose motions are found side by side."""
@@ -43,7 +44,7 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
     The bodies that no wrench pushes try four steps at once. All others, those for which that fails, and the steps that
     are left over go one by one.
     """
-    four, arrive = make_gauss_four(stages), composition.water.arrive
+    four, carry = make_gauss_four(stages), at_stages(composition.water).carry
     take = make_take(make_forced_step(composition, gauss(stages)), composition.fallback)
 
     def unforced(
@@ -59,7 +60,7 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
             if count == BATCH and some(unpushed & now.progress.under_way):
                 node = time + done * h
                 pose, momentum, report = four(inertia, h, now.pose, now.momentum)
-                pose = arrive(parameters.water, inertia, node, BATCH * h, pose, momentum).pose
+                pose = carry(parameters.water, node, BATCH * h, pose)
                 fine = unpushed & now.progress.under_way & usable(report)
                 now = Stepped(
                     select(fine, pose, now.pose),
@@ -81,10 +82,8 @@ def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
     """Return the method of order 2 x stages: (composition) -> advance."""
 
     def make_gauss(composition: Composition) -> Advance:
-        if composition.pose_forces or composition.velocity_forces:
-            return make_advance_with_fallback(
-                make_forced_step(composition, gauss(stages)), composition.fallback
-            )
-        return make_unforced(composition, stages)
+        if composition.forceless:
+            return make_unforced(composition, stages)
+        return make_advance_with_fallback(make_forced_step(composition, gauss(stages)), composition.fallback)
 
     return make_gauss

@@ -57,6 +57,7 @@ from dq_marine.integrator.increment import Increment, as_pose, carried, consiste
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import Composition, StepParameters
 from dq_marine.integrator.sweeps import make_sweeps
+from dq_marine.integrator.water import at_stages, leave_wrench
 
 
 class Place(NamedTuple):
@@ -86,8 +87,8 @@ class Surroundings(NamedTuple):
         h: step size [s].
         position: at the step's start [m].
         wrench: constant, body frame.
-        time: of the stage [s].
-        elapsed: since the step's start [s].
+        began: time of the step's start [s].
+        elapsed: from then to the stage [s].
     """
 
     parameters: StepParameters
@@ -96,7 +97,7 @@ class Surroundings(NamedTuple):
     h: float
     position: Vector3
     wrench: Spatial
-    time: float
+    began: float
     elapsed: float
 
 
@@ -129,20 +130,18 @@ def impulse(stage: ForcedStage, way: Vector3) -> Spatial:
     return Spatial(add(moment, cross(way, force)), force)
 
 
-def make_forces(composition: Composition) -> Callable[[Surroundings, Place, Spatial], Spatial]:
-    """Return (surroundings, place, h times the twist) -> all forces on the body."""
+def make_forces(composition: Composition) -> Callable[[Surroundings, DualQuaternion, Spatial], Spatial]:
+    """Return (surroundings, pose, h times the twist) -> all forces on the body, those of accelerated water too."""
     add_pose_forces = join_pose_forces(composition.pose_forces)
     add_velocity_forces = join_velocity_forces(composition.velocity_forces)
-    arrive = composition.water.arrive
+    push = at_stages(composition.water).push
 
-    def forces_at(around: Surroundings, place: Place, twist: Spatial) -> Spatial:
-        parameters, time = around.parameters, around.time
-        pose = pose_from_parts(place.attitude, add(around.position, place.way))
-        start = place.momentum
-        pose = arrive(parameters.water, parameters.inertia, time, around.elapsed, pose, start).pose
+    def forces_at(around: Surroundings, pose: DualQuaternion, twist: Spatial) -> Spatial:
+        parameters, time = around.parameters, around.began + around.elapsed
         posed = add_pose_forces(parameters.forces[0], pose, time, around.wrench)
         chi = spatial_scale(1.0 / around.h, twist)
-        return add_velocity_forces(parameters.forces[1], pose, chi, time, posed)
+        acting = add_velocity_forces(parameters.forces[1], pose, chi, time, posed)
+        return push(parameters.water, pose, acting)
 
     return forces_at
 
@@ -153,7 +152,9 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
     Where all forces of the scene have potentials, kinetic and potential energy together change by the work of
     the constant wrench alone, as they should. Elsewhere the increment is left as it is.
     """
-    if composition.velocity_forces or len(composition.potentials) < len(composition.pose_forces):
+    pushed_by_water = at_stages(composition.water).push is not leave_wrench
+    lacks_potentials = len(composition.potentials) < len(composition.pose_forces)
+    if composition.velocity_forces or lacks_potentials or pushed_by_water:
 
         def left_alone(
             around: Surroundings,
@@ -168,7 +169,7 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
         return left_alone
     potential = join_potentials(composition.potentials)
     add_pose_forces = join_pose_forces(composition.pose_forces)
-    arrive = composition.water.arrive
+    carry = at_stages(composition.water).carry
 
     def levelled(
         around: Surroundings,
@@ -186,8 +187,8 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
         had = 0.5 * quadratic_form(inertia.inverse, start.momentum)
         has = 0.5 * spatial_dot(twist, momentum)
         gained = potential(forces, reached) - potential(forces, pose) - work
-        there = arrive(parameters.water, inertia, around.time, around.h, reached, momentum).pose
-        force = add_pose_forces(forces, there, around.time + around.h, around.wrench)
+        there = carry(parameters.water, around.began, around.elapsed, reached)
+        force = add_pose_forces(forces, there, around.began + around.elapsed, around.wrench)
         rate = spatial_add_scaled(momentum_bracket(twist, momentum), square, force)
         excess = (has - had) + square * gained
         delta = levelling(around.length_squared, rate, excess, around.size)
@@ -199,12 +200,14 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
 def make_forced_step(composition: Composition, method: Collocation) -> Step:
     """Return (parameters, time, h, pose, momentum, wrench) -> (pose, momentum, report): one step of order 2s."""
     forces_at, land = make_forces(composition), make_landing(composition)
-    arrive = composition.water.arrive
+    carry = at_stages(composition.water).carry
     weights, nodes = method.weights, method.nodes
 
     def evaluate(around: Surroundings, place: Place) -> ForcedStage:
         twist = twist_from_momentum(around.parameters.inertia, place.momentum)
-        wrench = spatial_scale(around.h * around.h, forces_at(around, place, twist))
+        pose = pose_from_parts(place.attitude, add(around.position, place.way))
+        pose = carry(around.parameters.water, around.began, around.elapsed, pose)
+        wrench = spatial_scale(around.h * around.h, forces_at(around, pose, twist))
         rate = Place(
             spatial_add(momentum_bracket(twist, place.momentum), wrench),  # (G7)
             turned(place.attitude, scale(0.5, twist.angular)),  # (G8)
@@ -232,8 +235,7 @@ def make_forced_step(composition: Composition, method: Collocation) -> Step:
         size = weighted_square(length_squared, start.momentum)
         size = size + weighted_square(length_squared, begun.wrench) + smallest_normal(like)
         elapsed = each_stage(nodes, multiplied, (h, stage_constants(nodes, like)))
-        times = each_stage(nodes, added, (time, elapsed))
-        around = Surroundings(parameters, length_squared, size, h, position, wrench, times, elapsed)
+        around = Surroundings(parameters, length_squared, size, h, position, wrench, time, elapsed)
         found, report = sweeps(around, start, begun, size)
         end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
         # The ways are computed after the sweeps: where no force asks for the position, these go without them.
@@ -249,7 +251,7 @@ def make_forced_step(composition: Composition, method: Collocation) -> Step:
         after = pose_renormalise(dual_multiply(pose, step))
         impulsive = spatial_add_scaled(momentum, 1.0 / h, to_body(pose.real, given))
         given_on = transport_momentum(pose.real, after.real, pose_position(step), impulsive)
-        after = arrive(parameters.water, inertia, time, h, after, given_on).pose
+        after = carry(parameters.water, time, h, after)
         return after, given_on, DriftReport(report, spread(True, like))
 
     return forced_step
@@ -280,8 +282,3 @@ def consistent_twice(length: float, increment: Increment, before: Spatial, after
 def multiplied(a: float, b: float) -> float:
     """Return a b."""
     return a * b
-
-
-def added(a: float, b: float) -> float:
-    """Return a + b."""
-    return a + b

@@ -24,7 +24,7 @@ from dq_marine.integrator.drift_report import DriftReport, drift_accepted, equat
 from dq_marine.integrator.forces import PoseForce, Potential, VelocityForce
 from dq_marine.integrator.inertia import Inertia, momentum_from_twist, twist_from_momentum
 from dq_marine.integrator.kick import Kick
-from dq_marine.integrator.water import Water
+from dq_marine.integrator.water import Water, at_stages, leave_wrench
 
 ACCEPTED = 0
 NOT_CONVERGED = 1
@@ -67,6 +67,12 @@ class Composition:
     water: Water
     actuation: Actuation = NO_ACTUATION
     potentials: tuple[Potential, ...] = ()
+
+    @property
+    def forceless(self) -> bool:
+        """Whether nothing acts on a body but a constant wrench; damping counts where it is a velocity force."""
+        forces = self.pose_forces or self.velocity_forces
+        return not forces and at_stages(self.water).push is leave_wrench
 
 
 class StepParameters(NamedTuple):

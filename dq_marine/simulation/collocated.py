@@ -17,15 +17,11 @@ from dq_marine.integrator.forces import Potential, VelocityForce
 from dq_marine.integrator.galerkin import PIECES, PiecesTiming, make_galerkin, make_in_pieces
 from dq_marine.integrator.gauss import make_gauss_method
 from dq_marine.integrator.step import Composition, make_advance
-from dq_marine.physics.current.formulas.uniform import MOVING_WATER, STILL_WATER
 from dq_marine.physics.damping.build import DampingTerm
 from dq_marine.physics.term import WaterTerm
 
 VelocityForces: TypeAlias = tuple[VelocityForce, ...]
 Potentials: TypeAlias = tuple[Potential, ...]
-
-UNIFORM_WATER = (STILL_WATER, MOVING_WATER)
-"""Water that is taken in the frame which drifts with it."""
 
 
 class Collocated(NamedTuple):
@@ -92,13 +88,13 @@ COLLOCATED = {
 
 
 def check_water(scheme: str, water: WaterTerm) -> None:
-    """Refuse currents that vary: these schemes do not know of them yet.
+    """Refuse currents that vary with depth: these schemes do not know of them yet.
 
     Raises:
         InvalidInputError: with the reason.
     """
-    if water.water not in UNIFORM_WATER:
+    if water.water.at_stages is None:
         raise InvalidInputError(
-            f"scheme = {scheme!r}, but the current varies ({water.name}); give a uniform and steady current, or "
+            f"scheme = {scheme!r}, but the current varies with depth ({water.name}); give a uniform current, or "
             'scheme="midpoint"'
         )

@@ -18,7 +18,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.drift_report import equation_met
 from dq_marine.integrator.galerkin_drift import make_galerkin_drift
 from dq_marine.integrator.midpoint_drift import midpoint_drift
-from dq_marine.physics.current.build import GaussMarkovCurrent
+from dq_marine.physics.current.build import CurrentProfile
 from dq_marine.physics.matrices import inertia_term
 from dq_marine.simulation.scene import Scene
 
@@ -244,7 +244,7 @@ def test_a_rotated_start_gives_the_rotated_end_to_round_off():
     assert np.allclose(rotate(here.real, carried.linear), momentum.linear, rtol=0, atol=1e-14)
 
 
-def test_water_that_varies_is_refused_with_the_reason():
-    current = GaussMarkovCurrent()
-    with pytest.raises(InvalidInputError, match=r"galerkin.*the current varies.*midpoint"):
+def test_water_that_varies_with_depth_is_refused_with_the_reason():
+    current = CurrentProfile([0.0, 9.0], [[0.5, 0.0], [0.0, 0.0]])
+    with pytest.raises(InvalidInputError, match=r"galerkin.*the current varies with depth.*midpoint"):
         Scene(scheme="galerkin", order=8, current=current)

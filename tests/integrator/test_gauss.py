@@ -243,7 +243,7 @@ def test_stiff_damping_goes_to_the_fallback_which_is_stable(stiffness):
     ("arguments", "message"),
     [
         ({"order": 2}, r"order = 2, but scheme = 'gauss' has order 8 alone; give order=8"),
-        ({"order": 8, "current": PROFILE}, r"scheme = 'gauss', but the current varies"),
+        ({"order": 8, "current": PROFILE}, r"scheme = 'gauss', but the current varies with depth"),
     ],
 )
 def test_what_it_does_not_have_is_refused_with_the_reason(arguments, message):

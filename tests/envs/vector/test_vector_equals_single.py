@@ -45,6 +45,7 @@ def test_flights_are_the_same_for_any_number_of_environments_and_threads(count, 
     assert_flights_agree(envs, Separate(count, **limits), 70, seed=count)
 
 
+GAUSS_MARKOV = {"mean": (0.1, 0.0, 0.0), "standard_deviation": 0.2, "correlation_time": 5.0}
 KEYWORDS = {
     "still water": {"current": 0.0, "substeps": 1, "start_radius": 0.0},
     "fixed current": {
@@ -58,7 +59,9 @@ KEYWORDS = {
     "thrusters": {"actuation": "thrusters"},
     "actuators of every kind": {"actuation": "thrusters", "vehicle": everything(), "current": 0.0},
     "profile": {"current": {"depths": (3.0, 5.0, 8.0), "velocities": ((0.5, 0.0), (0.2, 0.3), (-0.4, 0.0))}},
-    "Gauss-Markov": {"current": {"mean": (0.1, 0.0, 0.0), "standard_deviation": 0.2, "correlation_time": 5.0}},
+    "Gauss-Markov": {"current": GAUSS_MARKOV},
+    "Gauss-Markov, gauss": {"current": GAUSS_MARKOV, "scheme": "gauss", "order": 8, "substeps": 1},
+    "Gauss-Markov, galerkin": {"current": GAUSS_MARKOV, "scheme": "galerkin", "order": 4, "substeps": 1},
 }  # fmt: skip
 
 

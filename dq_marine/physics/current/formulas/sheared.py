@@ -116,7 +116,7 @@ def make_sheared_water(layers: int) -> Water:
         slipped = slip(inertia, pose, momentum, subtract(here, there))  # (S2)
         return Placed(pose_translate(pose, scale(0.5 * h, here)), slipped)
 
-    return Water(draw_current, same_profile, depart, arrive, velocity, twist, stay, 0)
+    return Water(draw_current, same_profile, depart, arrive, None, velocity, twist, stay, 0)
 
 
 def sinking(inertia: Inertia, pose: DualQuaternion, momentum: Spatial) -> float:

@@ -16,7 +16,7 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.spatial import ZERO, Spatial
 from dq_marine.algebra.vector3 import Vector3, add, scale
 from dq_marine.integrator.inertia import Inertia
-from dq_marine.integrator.water import CurrentDraw, Placed, Water
+from dq_marine.integrator.water import CurrentDraw, Placed, Water, WaterAtStages, leave_wrench
 
 
 class UniformFlow(NamedTuple):
@@ -40,6 +40,16 @@ def carry_with_current(current: UniformFlow, h: float, pose: DualQuaternion) -> 
 def carry_nothing(parameters: Any, h: float, pose: DualQuaternion) -> DualQuaternion:
     """Return the pose."""
     return pose
+
+
+def stay_put(parameters: Any, time: float, elapsed: float, pose: DualQuaternion) -> DualQuaternion:
+    """Return the pose."""
+    return pose
+
+
+def carry_along(current: UniformFlow, time: float, elapsed: float, pose: DualQuaternion) -> DualQuaternion:
+    """Return the pose displaced by the water's way."""
+    return carry_with_current(current, elapsed, pose)
 
 
 def leave_be(
@@ -91,5 +101,10 @@ def stay(parameters: Any, time: float, uniforms: Any) -> Any:
     return parameters
 
 
-STILL_WATER = Water(draw_current, no_flow, leave_be, leave_be, no_velocity, no_twist, stay, 0)
-MOVING_WATER = Water(draw_current, uniform_flow, leave_be, displace, current_velocity, current_twist, stay, 0)
+STILL = WaterAtStages(stay_put, leave_wrench)
+MOVING = WaterAtStages(carry_along, leave_wrench)
+
+STILL_WATER = Water(draw_current, no_flow, leave_be, leave_be, STILL, no_velocity, no_twist, stay, 0)
+MOVING_WATER = Water(
+    draw_current, uniform_flow, leave_be, displace, MOVING, current_velocity, current_twist, stay, 0
+)

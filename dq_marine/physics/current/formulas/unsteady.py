@@ -25,7 +25,7 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.spatial import Spatial, spatial_add
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale, subtract
 from dq_marine.integrator.inertia import Inertia
-from dq_marine.integrator.water import CurrentDraw, Placed, Water
+from dq_marine.integrator.water import CurrentDraw, Placed, Water, WaterAtStages
 
 
 class Course(NamedTuple):
@@ -106,6 +106,19 @@ def half_way(
     return Placed(pose_translate(pose, way), spatial_add(momentum, impulse))
 
 
+def carry_unsteadily(
+    current: UnsteadyCurrent, time: float, elapsed: float, pose: DualQuaternion
+) -> DualQuaternion:
+    """Return the pose displaced by the water's way, exactly: its velocity is linear in time."""
+    return pose_translate(pose, scale(elapsed, course_velocity(current.course, time + 0.5 * elapsed)))
+
+
+def push_unsteadily(current: UnsteadyCurrent, pose: DualQuaternion, wrench: Spatial) -> Spatial:
+    """Return the wrench and the rate of (U1)."""
+    rate, displaced = rotate_inverse(pose.real, current.course.rate), current.displacement
+    return spatial_add(wrench, Spatial(cross(displaced.moment, rate), scale(displaced.excess, rate)))
+
+
 def depart_unsteadily(
     current: UnsteadyCurrent,
     inertia: Inertia,
@@ -158,6 +171,7 @@ UNSTEADY_WATER = Water(
     steady_course,
     depart_unsteadily,
     arrive_unsteadily,
+    WaterAtStages(carry_unsteadily, push_unsteadily),
     unsteady_velocity,
     unsteady_twist,
     wander,
