@@ -157,7 +157,8 @@ def checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
     Raises:
         InvalidInputError: there is no such mode.
     """
-    plain = mode.value if isinstance(mode, AutoresetMode) else str(mode)
+    name = mode.value if isinstance(mode, AutoresetMode) else mode
+    plain = name if isinstance(name, str) else ""
     for member in AutoresetMode:
         if plain.replace("_", "").lower() == member.value.lower():
             return member

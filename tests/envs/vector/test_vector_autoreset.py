@@ -11,6 +11,7 @@ from support.environments import StationKeepingEnv
 from support.vector_envs import BUSY, reference, same
 
 import dq_marine  # noqa: F401 - registers
+from dq_marine.errors import InvalidInputError
 
 ID = "dq_marine/StationKeeping-v0"
 NEXT_STEP, SAME_STEP, DISABLED = AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP, AutoresetMode.DISABLED
@@ -213,6 +214,19 @@ def test_a_mode_may_be_given_by_its_value(mode):
         each.reset(seed=0)
     for actions in actions_for(3, 2 if mode is DISABLED else 5):
         assert same(envs.step(actions), twin.step(actions))
+
+
+class Nameless:
+    """An object that cannot be printed."""
+
+    def __repr__(self):
+        raise RuntimeError("no repr")
+
+
+@pytest.mark.parametrize("mode", [Nameless(), None, 3, "sometimes", b"Disabled"], ids=range(5))
+def test_what_is_no_mode_is_refused(mode):
+    with pytest.raises(InvalidInputError, match=r"autoreset_mode = .*unknown; give one of"):
+        compiled(3, mode)
 
 
 # Gymnasium's wrappers
