@@ -87,6 +87,13 @@ def test_a_cost_lies_on_the_line_between_two_points() -> None:
     assert cost_at(costs, errors, 1e-4) == pytest.approx(10.0**1.5)
 
 
+def test_a_coarser_point_that_costs_more_is_not_read_towards():
+    """Steps too long for a method are left to its fallback, which costs more than shorter steps do."""
+    assert cost_at([9.0, 2.0, 4.0], [1.0, 1e-3, 1e-5], 1e-2) == 2.0
+    assert 2.0 < cost_at([9.0, 2.0, 4.0], [1.0, 1e-3, 1e-5], 1e-4) < 4.0
+
+
+
 def test_a_first_point_that_is_exact_enough_is_the_cost() -> None:
     assert cost_at([3.0, 6.0], [1e-4, 1e-5], 1e-2) == 3.0
 
