@@ -16,7 +16,7 @@ from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.fallback import Stepped, make_advance_with_fallback, make_take, solved, usable
-from dq_marine.integrator.gauss_drift import make_gauss_four
+from dq_marine.integrator.gauss_drift import make_gauss_four, make_gauss_one
 from dq_marine.integrator.gauss_forced import make_forced_step
 from dq_marine.integrator.step import (
     Advance,
@@ -41,10 +41,11 @@ def is_zero(wrench: Spatial) -> bool:
 def make_unforced(composition: Composition, stages: int) -> Advance:
     """Return the advance of a scene without forces of its own.
 
-    The bodies that no wrench pushes try four steps at once. All others, those for which that fails, and the steps that
-    are left over go one by one.
+    The bodies that no wrench pushes try four steps at once, and one by one those that are left over. All others, and
+    those for which that fails, go step by step as under forces.
     """
-    four, carry = make_gauss_four(stages), at_stages(composition.water).carry
+    four, one = make_gauss_four(stages), make_gauss_one(stages)
+    carry = at_stages(composition.water).carry
     take = make_take(make_forced_step(composition, gauss(stages)), composition.fallback)
 
     def unforced(
@@ -55,22 +56,25 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
         unpushed = is_zero(wrench)
         done = 0
         while done < steps and some(now.progress.under_way):
-            count = min(BATCH, steps - done)
-            singly = now.progress.under_way
-            if count == BATCH and some(unpushed & now.progress.under_way):
-                node = time + done * h
-                pose, momentum, report = four(inertia, h, now.pose, now.momentum)
-                pose = carry(parameters.water, node, BATCH * h, pose)
+            count = BATCH if steps - done >= BATCH else 1
+            node = time + done * h
+            pushed = now.progress.under_way
+            if some(unpushed & now.progress.under_way):
+                if count == BATCH:
+                    pose, momentum, report = four(inertia, h, now.pose, now.momentum)
+                else:
+                    pose, momentum, report = one(inertia, h, now.pose, now.momentum)
+                pose = carry(parameters.water, node, count * h, pose)
                 fine = unpushed & now.progress.under_way & usable(report)
                 now = Stepped(
                     select(fine, pose, now.pose),
                     select(fine, momentum, now.momentum),
-                    solved(now.progress, fine, report, BATCH),
+                    solved(now.progress, fine, report, count),
                 )
-                singly = singly & negation(fine)
-            if some(singly):
+                pushed = pushed & negation(fine)
+            if some(pushed):
                 for step in range(count):
-                    now = take(parameters, wrench, time + (done + step) * h, h, now, singly)
+                    now = take(parameters, wrench, node + step * h, h, now, pushed)
             done += count
         return arrival(state, now.pose, now.momentum, now.progress)
 

@@ -1,4 +1,4 @@
-"""Free motion by Gauss's collocation on the momentum: a drift over four steps at once.
+"""Free motion by Gauss's collocation on the momentum: drifts over one step, and over four at once.
 
 The momentum at the stages comes from `gauss_stages`, the pose from the series of the twist that goes with it. The pose
 is then made consistent with the momentum (G6) and its energy (G10), and the momentum that is handed on is the old one,
@@ -79,6 +79,27 @@ def moved_by(
     step = as_pose(increment)
     after = pose_renormalise(dual_multiply(pose, step))
     return after, transport_momentum(pose.real, after.real, pose_position(step), momentum), report
+
+
+@functools.cache
+def make_gauss_one(stages: int) -> Drift:
+    """Return (inertia, h, pose, momentum) -> (pose, momentum, report): a step of free motion."""
+    sweep_stages = make_sweep_stages(gauss(stages))
+
+    def gauss_one(
+        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        body = FreeBody(inertia, squared_length(inertia))
+        before = spatial_scale(h, momentum)
+        swept = sweep_stages(body, before)
+        after = spatial_add(before, swept.change)
+        p = swept.twists
+        increment = fitted(math.sqrt(body.length_squared), Twists(p[0], p[1], p[2], p[3]), before, after)
+        levelled = on_energy_level(body, increment, before)
+        report = DriftReport(swept.report, levelled.energy_kept)
+        return moved_by(levelled.increment, pose, momentum, report)
+
+    return gauss_one
 
 
 @functools.cache

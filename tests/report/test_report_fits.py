@@ -93,7 +93,6 @@ def test_a_coarser_point_that_costs_more_is_not_read_towards():
     assert 2.0 < cost_at([9.0, 2.0, 4.0], [1.0, 1e-3, 1e-5], 1e-4) < 4.0
 
 
-
 def test_a_first_point_that_is_exact_enough_is_the_cost() -> None:
     assert cost_at([3.0, 6.0], [1e-4, 1e-5], 1e-2) == 3.0
 
