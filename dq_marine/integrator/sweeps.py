@@ -86,7 +86,7 @@ def make_sweeps(
                 telltale = min(last, LARGEST_TELLTALE * size)
                 tolerance = max(tolerance, OF_THE_ERROR**2 * (telltale * telltale / size))
             if sweep > telling:
-                contracts = last <= SLOWEST * before
+                contracts = last < SLOWEST * before  # not so if both are infinite
                 done = (contracts & (last * last <= tolerance * before)) | (last <= tolerance)
                 stagnates = (last <= accepted_squared(last) * size) & (last >= 0.25 * before)
                 converged = converged | (active & (done | stagnates))

@@ -9,13 +9,18 @@ from support.fossen import errors, solve
 from support.order import observed_order
 
 from dq_marine import CurrentProfile
-from dq_marine.algebra.dual_quaternion import pose_position
+from dq_marine.algebra.dual_quaternion import pose_from_parts, pose_position
 from dq_marine.algebra.quaternion import rotate_inverse, world_down_in_body
-from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.spatial import Spatial, from_fossen
 from dq_marine.algebra.vector3 import scale
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.collocation import gauss
+from dq_marine.integrator.fallback import usable
+from dq_marine.integrator.gauss_drift import make_gauss_one
+from dq_marine.physics.matrices import inertia_term
 from dq_marine.physics.term import ForceTerm
+from dq_marine.report.cells import cells
+from dq_marine.report.plan import Plan
 from dq_marine.simulation.scene import Scene
 
 GRAVITY = {"excess_weight": 2.0, "arm": (0.2, -0.1, 1.0), "current": (0.2, -0.1, 0.1)}
@@ -234,6 +239,22 @@ def test_stiff_damping_goes_to_the_fallback_which_is_stable(stiffness):
     body.step(steps=20)
     assert abs(body.velocity_body[0]) <= np.exp(-min(20.0 * stiffness, 30.0)) * 1.1 + 1e-12
     assert (body.fallback_steps > 0) == (stiffness > 10.0)
+
+
+def test_sweeps_that_overflow_are_not_taken_for_converged():
+    """Where two changes in turn are infinite, neither is smaller: seen in one of the report's extreme motions."""
+    origin, usable_ones = pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), 0
+    for cell in cells(Plan()):
+        momentum = from_fossen(tuple(cell.physics.mass_matrix @ cell.velocity))
+        with np.errstate(all="ignore"):
+            pose, carried, report = make_gauss_one(4)(
+                inertia_term(cell.physics.mass_matrix), cell.step, origin, momentum
+            )
+        assert not report.solver.on_rest_branch or report.solver.relative_residual_squared < 0.01
+        if usable(report):
+            usable_ones += 1
+            assert np.isfinite([*pose.real, *pose.dual, *carried.angular, *carried.linear]).all()
+    assert usable_ones > 200
 
 
 # What is refused
