@@ -19,7 +19,9 @@ EXAMPLES = examples(
 def report(
     quick: Annotated[
         bool,
-        typer.Option("--quick", help="Make a small report in two minutes; the full one takes about ten."),
+        typer.Option(
+            "--quick", help="Make a small report in a few minutes; the full one takes half an hour."
+        ),
     ] = False,
     out: Annotated[Path, typer.Option("--out", help="Folder for the page and the points.")] = Path("report"),
     only: Annotated[

@@ -52,6 +52,27 @@ def test_a_library_has_its_time_with_its_error_and_no_order() -> None:
     assert curve.order("attitude", 1e-12, 1.0) is None
 
 
+def test_nothing_is_read_across_steps_that_failed() -> None:
+    """In five steps an explicit method is at an end before it blows up."""
+    outcomes = {5: ("done", 0.9), 10: ("blew up", None), 20: ("done", 1e-5), 40: ("done", 1e-6)}
+    rows = [
+        {
+            "kind": "error",
+            "case": "munk_spheroid",
+            "method": "explicit_euler",
+            "steps": steps,
+            "step": 1.0 / steps,
+            "evaluations": float(steps),
+            "outcome": outcome,
+            "attitude": error,
+        }
+        for steps, (outcome, error) in outcomes.items()
+    ]
+    curve = curves_of(rows, "munk_spheroid")["explicit_euler"]
+    assert curve.cost_at("attitude", 1e-2, "evaluations") == 20.0
+    assert len(curve.points) == 3
+
+
 def test_the_best_own_method_is_the_cheapest_that_gets_there() -> None:
     curves = curves_of(synthetic.work_precision(), synthetic.CASE)
     for target in (1e-2, 1e-6):

@@ -49,8 +49,14 @@ class Curve:
         return [_number(row.get(quantity)) for row in self._with(cost)]
 
     def cost_at(self, quantity: str, target: float, cost: str = TIME) -> float | None:
-        """Return the cost of an error, None if it is not reached."""
-        return cost_at(self.costs(cost), self.errors(quantity, cost), target)
+        """Return the cost of an error, None if it is not reached.
+
+        It is read off points with shorter steps than all that failed: a motion that ends before it blows up, in a few
+        steps of any length, tells nothing of those between.
+        """
+        bound = min((row["step"] for row in self.failures if "step" in row), default=math.inf)
+        points = [row for row in self._with(cost) if row.get("step", 0.0) < bound]
+        return cost_at([row[cost] for row in points], [_number(row.get(quantity)) for row in points], target)
 
     def order(
         self, quantity: str, smallest: float, largest: float, longest_step: float = math.inf
