@@ -104,9 +104,7 @@ def cost_at(costs: Sequence[float], errors: Sequence[float], target: float) -> f
     cost, error = costs[first], errors[first]
     if first == 0 or not math.isfinite(errors[first - 1]) or error <= 0.0:
         return cost
-    if (
-        costs[first - 1] >= cost
-    ):  # coarser and dearer, as where a fallback took the steps: nobody would go there
+    if costs[first - 1] >= cost:  # coarser and dearer, as where a fallback took the steps
         return cost
     share = math.log(errors[first - 1] / target) / math.log(errors[first - 1] / error)
     return float(costs[first - 1] * (cost / costs[first - 1]) ** share)

@@ -85,6 +85,19 @@ def test_higher_orders_hold_in_a_slope(order):
         assert found > order - 0.3, found
 
 
+def test_order_two_in_a_current_that_changes_with_time():
+    rng = np.random.default_rng(7)
+    m, begin, wrench = random_inertia(rng), start(rng), np.array([4.0, -2.0, 3.0, 1.0, -1.0, 2.0])
+    u, a, excess, moment = (0.4, -0.3, 0.1), (1.5, 0.7, -0.4), -2.0, (0.3, -0.2, 0.9)
+    reference = solve_in_moving_water(
+        m, *begin, DURATION, lambda t, x: np.array(u) + t * np.array(a), lambda t, x: np.array(a),
+        excess=excess, moment=moment, quadratic=DAMPING, wrench=wrench,
+    )  # fmt: skip
+    case = {"current": ramp(u, a, excess, moment), "quadratic": DAMPING}
+    for order in slopes(m, case, begin, reference, wrench):
+        assert abs(order - 2.0) < 0.05, order
+
+
 WITH_STAGES = {
     ("galerkin", 4): [16, 24, 32],
     ("galerkin", 6): [11, 14, 18],
