@@ -15,7 +15,7 @@ demo: $(VENV)/.demo  ## hold a BlueROV2 Heavy in a current; write a 3-D replay a
 
 test: $(VENV)/.test  ## run every test; installs Chromium where it may, else skips what needs it
 	@.ci/browser.sh $(BIN)/python
-	@$(BIN)/python -m pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder
+	@$(BIN)/python -m pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder
 
 lint: $(VENV)/.test  ## check style, types and the direction of imports
 	@$(BIN)/ruff check .

@@ -6,12 +6,16 @@ import sys
 from pathlib import Path
 
 import pytest
+from support.sweeps import sweep
 
 ROOT = Path(__file__).parents[1]
+EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py"))
+LONG = {"hindsight_replay", "ship_in_waves", "train_with_sb3"}
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.py")), ids=lambda path: path.stem)
-def test_example(path, tmp_path):
+@pytest.mark.parametrize("name", sweep(EXAMPLES, plain=sorted(set(EXAMPLES) - LONG)))
+def test_example(name, tmp_path):
+    path = ROOT / "examples" / f"{name}.py"
     result = subprocess.run(
         [sys.executable, "-W", "error", str(path)], capture_output=True, text=True, cwd=tmp_path, timeout=1800
     )

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from support.bodies import PlainBody, make_body, random_damping, random_inertia, random_quaternion
 from support.fossen import errors, solve
 from support.order import observed_order
+from support.sweeps import sweep
 
 from dq_marine import CurrentProfile
 from dq_marine.algebra.dual_quaternion import pose_from_parts, pose_position
@@ -146,7 +147,7 @@ def test_energy_and_momentum_over_a_hundred_thousand_steps(step):
     assert body.fallback_steps == 0
 
 
-@pytest.mark.parametrize("weight", [0.0, 0.5])
+@pytest.mark.parametrize("weight", sweep([0.0, 0.5], plain=[0.5]))
 def test_a_heavy_top_keeps_energy_and_the_momentum_that_gravity_leaves_alone(weight):
     """Horizontal momentum, the moment about the vertical, and kinetic with potential energy."""
     arm = np.array([0.3, 0.1, -2.0])

@@ -30,7 +30,7 @@ def fly(**keywords: Any) -> Episode:
     return fly_episode(env, make_baseline("controller", env), seed=0, options=FAR)
 
 
-@pytest.mark.parametrize("time_constant", sweep([0.0, 0.1], plain=[0.1]))
+@pytest.mark.parametrize("time_constant", sweep([0.0, 0.1], plain=[0.0]))
 def test_it_holds_station_by_thrusters(time_constant: float) -> None:
     vehicle = heavy(time_constant=time_constant)
     episode = fly(vehicle=vehicle, actuation="thrusters", current=(0.2, -0.2, 0.0))

@@ -277,7 +277,7 @@ def test_a_wrapper_may_not_end_or_prolong_episodes() -> None:
     with pytest.raises(
         InvalidInputError, match=r"environment 1 has ended, but it goes on.*max_episode_steps"
     ):
-        made(Ending, max_episode_steps=300, current=0.0).step(np.zeros((COUNT, 6)))
+        made(Ending, max_episode_steps=300).step(np.zeros((COUNT, 6)))
     envs = made(Prolonging, max_episode_steps=1)
     with pytest.raises(InvalidInputError, match=r"environment 0 goes on, but it has ended"):
         envs.step(np.zeros((COUNT, 6)))

@@ -113,6 +113,7 @@ def test_an_episode_follows_from_its_seed():
     assert not np.array_equal(observations(flights[0]), observations(flights[2]))
 
 
+@pytest.mark.sweep
 def test_many_told_by_sensors_are_those_told_alone():
     sensors = imperfect(noise=0.1, bias=0.1, walk=0.1, scale=0.05, dropout=0.3)
     envs = gym.make_vec(ID, num_envs=9, sensors=sensors, max_episode_steps=8)

@@ -60,6 +60,7 @@ def test_a_vessel_may_capsize_in_an_environment():
     assert env.quaternion_body_to_ned[1] ** 2 > 0.9  # upside down still
 
 
+@pytest.mark.sweep
 def test_a_vector_of_vessels_is_the_single_one():
     single, envs = StationKeepingEnv("otter"), StationKeepingVectorEnv(3, vehicle="otter")
     observations, _ = envs.reset(seed=7)

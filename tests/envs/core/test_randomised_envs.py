@@ -33,6 +33,7 @@ def flown(env, periods=20, seed=0):
     return np.array(states)
 
 
+@pytest.mark.sweep
 def test_many_fly_as_each_alone():
     """To the last bit, through several episodes, each with another vehicle."""
     keywords = POOL | {"max_episode_steps": 12}

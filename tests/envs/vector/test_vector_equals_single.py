@@ -19,6 +19,7 @@ from support.separate import (
     same,
 )
 from support.sweeps import sweep
+from support.travellers import driven_by_wrenches
 
 import dq_marine  # noqa: F401 - registers
 from dq_marine.vehicles import load_vehicle
@@ -61,11 +62,14 @@ KEYWORDS = {
     "profile": {"current": {"depths": (3.0, 5.0, 8.0), "velocities": ((0.5, 0.0), (0.2, 0.3), (-0.4, 0.0))}},
     "Gauss-Markov": {"current": GAUSS_MARKOV},
     "Gauss-Markov, gauss": {"current": GAUSS_MARKOV, "scheme": "gauss", "order": 8, "substeps": 1},
+    "all but actuators and wind": driven_by_wrenches() | {"max_episode_steps": 20},
     "Gauss-Markov, galerkin": {"current": GAUSS_MARKOV, "scheme": "galerkin", "order": 4, "substeps": 1},
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", sweep(KEYWORDS, plain=("fixed current", "reward", "Gauss-Markov")))
+@pytest.mark.parametrize(
+    "name", sweep(KEYWORDS, plain=("fixed current", "reward", "all but actuators and wind"))
+)
 def test_flights_are_the_same_whatever_the_keywords(name):
     keywords = KEYWORDS[name]
     envs = gym.make_vec(ID, num_envs=5, **keywords)

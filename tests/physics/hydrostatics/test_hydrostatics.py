@@ -237,6 +237,7 @@ def test_it_rests_at_its_equilibrium_depth():
     assert np.allclose(body.position_ned, (1.0, 2.0, 0.4), atol=1e-12)
 
 
+@pytest.mark.sweep
 def test_a_batch_has_the_bits_of_single_vessels():
     scene = Scene("otter", current=(0.2, 0.1, 0.0), step=0.02)
     rng = np.random.default_rng(0)

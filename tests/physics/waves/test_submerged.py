@@ -178,6 +178,7 @@ def test_a_damped_body_in_a_sea_is_what_scipy_says():
     assert math.log2(measured[0] / measured[1]) == pytest.approx(2.0, abs=0.3)
 
 
+@pytest.mark.sweep
 def test_bodies_in_lanes_have_the_bits_of_a_single_one():
     """Of different vehicles, too: the sea is one for all."""
     sea = Sea(Jonswap(1.0, 5.0), 0.5, components=9, seed=3)

@@ -86,7 +86,7 @@ def test_gusts_have_the_spectrums_energy_and_the_mean_wind():
     wind = Wind(
         15.0, math.pi, Windage(2.0 / 1.225, 0.0, 1.0, 10.0, c_x=1.0), gusts=True, components=60, seed=4
     )
-    times = np.arange(0.0, 6000.0, 3.1)  # no multiple of a component's period
+    times = np.arange(0.0, 6000.0, 3.1)  # coarser than the fastest gusts: mean and variance do not mind
     speed = np.sqrt([force_of(wind, time=t)[0] for t in times.tolist()])  # X = V^2
     frequencies = np.geomspace(1.0 / 600.0, 0.5, 20_001)
     density = gust_spectrum(frequencies, 15.0, 10.0)
