@@ -10,6 +10,7 @@ from dq_marine.algebra.selection import negation, select, select_call, some, spr
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.drift_report import DriftReport
+from dq_marine.integrator.staged import Step
 from dq_marine.integrator.step import (
     ACCEPTED,
     Advance,
@@ -35,12 +36,6 @@ class FallbackTiming(NamedTuple):
     h: float
     fallback: Any
 
-
-Step: TypeAlias = Callable[
-    [StepParameters, float, float, DualQuaternion, Spatial, Spatial],
-    tuple[DualQuaternion, Spatial, DriftReport],
-]
-"""(parameters, time, h, pose, momentum, constant body wrench) -> (pose, momentum, report)."""
 
 Take: TypeAlias = Callable[[StepParameters, Spatial, float, float, Stepped, bool], Stepped]
 

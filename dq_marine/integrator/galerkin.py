@@ -16,10 +16,10 @@ from dq_marine.algebra.spatial import Spatial, spatial_dot
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift_report import DriftReport
-from dq_marine.integrator.fallback import Step, make_advance_with_fallback, usable
-from dq_marine.integrator.forces import join_pose_forces, join_velocity_forces
+from dq_marine.integrator.fallback import make_advance_with_fallback, usable
 from dq_marine.integrator.galerkin_drift import make_galerkin_drift
-from dq_marine.integrator.galerkin_forced import Wrench, make_forced_step
+from dq_marine.integrator.galerkin_forced import make_forced_step
+from dq_marine.integrator.staged import Step
 from dq_marine.integrator.step import (
     ACCEPTED,
     Advance,
@@ -29,7 +29,6 @@ from dq_marine.integrator.step import (
     make_advance,
 )
 from dq_marine.integrator.strang import StrangTiming
-from dq_marine.integrator.water import at_stages
 
 PIECES = 8
 """Of a step that the sweeps do not solve: at most, of the same method, and of Strang's."""
@@ -42,27 +41,12 @@ class PiecesTiming(NamedTuple):
     piece: StrangTiming
 
 
-def make_wrench(composition: Composition) -> Wrench:
-    """Return (parameters, pose, twist, time, wrench) -> the sum of all forces on a body, of accelerated water too."""
-    add_pose_forces = join_pose_forces(composition.pose_forces)
-    add_velocity_forces = join_velocity_forces(composition.velocity_forces)
-    push = at_stages(composition.water).push
-
-    def wrench_at(
-        parameters: StepParameters, pose: DualQuaternion, twist: Spatial, time: float, wrench: Spatial
-    ) -> Spatial:
-        posed = add_pose_forces(parameters.forces[0], pose, time, wrench)
-        acting = add_velocity_forces(parameters.forces[1], pose, twist, time, posed)
-        return push(parameters.water, pose, acting)
-
-    return wrench_at
-
-
 def make_step(composition: Composition, order: int) -> Step:
     """Return one step; where nothing acts on a body, it is that of free motion."""
-    carry = at_stages(composition.water).carry
+    water = composition.water.at_stages
+    carry = water.carry
     free_step = make_galerkin_drift(order // 2)
-    forced_step = make_forced_step(gauss(order // 2), make_wrench(composition), carry)
+    forced_step = make_forced_step(gauss(order // 2), composition.stage_forces, carry)
     forceless = composition.forceless
 
     def step(
@@ -79,7 +63,7 @@ def make_step(composition: Composition, order: int) -> Step:
             moved, carried, report = forced_step(parameters, time, h, pose, momentum, wrench)
         return carry(parameters.water, time, h, moved), carried, report
 
-    return step
+    return water.step(step)
 
 
 @functools.cache

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from dq_marine.algebra.dual_quaternion import (
     DualQuaternion,
@@ -30,7 +30,6 @@ from dq_marine.algebra.vector3 import Vector3, add, cross, dot, scale, subtract
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
-from dq_marine.integrator.fallback import Step
 from dq_marine.integrator.galerkin_curve import (
     Rates,
     attitude_from,
@@ -48,11 +47,9 @@ from dq_marine.integrator.galerkin_sweeps import (
     make_sweeps,
     scales_of,
 )
+from dq_marine.integrator.staged import StageForces, Step
 from dq_marine.integrator.step import StepParameters
 from dq_marine.integrator.water import WaterCarry
-
-Wrench: TypeAlias = Callable[[StepParameters, DualQuaternion, Spatial, float, Spatial], Spatial]
-"""(parameters, pose, twist, time, constant body wrench) -> all that acts on the body, as a wrench in its frame."""
 
 
 class ForcedRates(NamedTuple):
@@ -86,7 +83,7 @@ class Flight(NamedTuple):
 
 
 def make_forced_node(
-    wrench_at: Wrench, carry: WaterCarry
+    forces_at: StageForces, carry: WaterCarry
 ) -> Callable[[Flight, float, ForcedRates], ForcedNode]:
     """Return (flight, part of the step that is over, half the sums of the rates) -> the node.
 
@@ -106,7 +103,7 @@ def make_forced_node(
         unit = quaternion_scale(1.0 / math.sqrt(length_squared), gamma)
         pose = dual_multiply(flight.pose, pose_from_parts(unit, way))
         there = carry(parameters.water, flight.time, part * h, pose)
-        acting = wrench_at(
+        acting = forces_at(
             parameters, there, spatial_scale(1.0 / h, twist), flight.time + part * h, flight.wrench
         )
         moment, force = scale(h * h, acting.angular), scale(h * h, acting.linear)
@@ -137,14 +134,14 @@ def forced_change_squared(scales: Scales, after: ForcedRates, before: ForcedRate
     return moved + scales.pushing * dot(push, push)
 
 
-def make_forced_step(method: Collocation, wrench_at: Wrench, carry: WaterCarry) -> Step:
+def make_forced_step(method: Collocation, forces_at: StageForces, carry: WaterCarry) -> Step:
     """Return a step under forces.
 
     The report says nothing of the energy, which forces change.
     """
     weights, nodes, halved = method.weights, method.nodes, half_matrix(method)
     first_nodes = make_first_nodes(method)
-    forced_node = make_forced_node(wrench_at, carry)
+    forced_node = make_forced_node(forces_at, carry)
 
     def sweep(flight: Any, rates: ForcedRates) -> Any:
         parts = stage_constants(nodes, flight.start.angular[0])
@@ -163,7 +160,7 @@ def make_forced_step(method: Collocation, wrench_at: Wrench, carry: WaterCarry) 
         inverse, start = parameters.inertia.inverse, spatial_scale(h, momentum)
         flight = Flight(parameters, h, pose, start, time, wrench)
         twist = matrix6_transform(inverse, start)
-        acting = wrench_at(parameters, pose, spatial_scale(1.0 / h, twist), time, wrench)
+        acting = forces_at(parameters, pose, spatial_scale(1.0 / h, twist), time, wrench)
         acting = spatial_scale(h * h, acting)
         guess = first_nodes(inverse, start, acting)
         pushes = (guess.rates, acting.angular, acting.linear, twist.linear)

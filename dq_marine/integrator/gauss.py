@@ -26,7 +26,6 @@ from dq_marine.integrator.step import (
     arrival,
     set_out,
 )
-from dq_marine.integrator.water import at_stages
 
 BATCH = 4
 """Free steps whose motions are found side by side."""
@@ -45,7 +44,7 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
     those for which that fails, go step by step as under forces.
     """
     four, one = make_gauss_four(stages), make_gauss_one(stages)
-    carry = at_stages(composition.water).carry
+    carry = composition.water.at_stages.carry
     take = make_take(make_forced_step(composition, gauss(stages)), composition.fallback)
 
     def unforced(
@@ -88,6 +87,7 @@ def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
     def make_gauss(composition: Composition) -> Advance:
         if composition.forceless:
             return make_unforced(composition, stages)
-        return make_advance_with_fallback(make_forced_step(composition, gauss(stages)), composition.fallback)
+        step = composition.water.at_stages.step(make_forced_step(composition, gauss(stages)))
+        return make_advance_with_fallback(step, composition.fallback)
 
     return make_gauss

@@ -50,14 +50,14 @@ from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.energy_level import levelling
-from dq_marine.integrator.fallback import Step
-from dq_marine.integrator.forces import join_pose_forces, join_potentials, join_velocity_forces
+from dq_marine.integrator.forces import join_pose_forces, join_potentials
 from dq_marine.integrator.gauss_stages import squared_length, weighted_square
 from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, turned, unit
 from dq_marine.integrator.inertia import twist_from_momentum
+from dq_marine.integrator.staged import Step
 from dq_marine.integrator.step import Composition, StepParameters
 from dq_marine.integrator.sweeps import make_sweeps
-from dq_marine.integrator.water import at_stages, leave_wrench
+from dq_marine.integrator.water import as_it_is
 
 
 class Place(NamedTuple):
@@ -130,29 +130,13 @@ def impulse(stage: ForcedStage, way: Vector3) -> Spatial:
     return Spatial(add(moment, cross(way, force)), force)
 
 
-def make_forces(composition: Composition) -> Callable[[Surroundings, DualQuaternion, Spatial], Spatial]:
-    """Return (surroundings, pose, h times the twist) -> all forces on the body, those of accelerated water too."""
-    add_pose_forces = join_pose_forces(composition.pose_forces)
-    add_velocity_forces = join_velocity_forces(composition.velocity_forces)
-    push = at_stages(composition.water).push
-
-    def forces_at(around: Surroundings, pose: DualQuaternion, twist: Spatial) -> Spatial:
-        parameters, time = around.parameters, around.began + around.elapsed
-        posed = add_pose_forces(parameters.forces[0], pose, time, around.wrench)
-        chi = spatial_scale(1.0 / around.h, twist)
-        acting = add_velocity_forces(parameters.forces[1], pose, chi, time, posed)
-        return push(parameters.water, pose, acting)
-
-    return forces_at
-
-
 def make_landing(composition: Composition) -> Callable[..., Increment]:
     """Return (surroundings, start, pose, increment, momentum it carries, work) -> the increment, levelled (G10).
 
     Where all forces of the scene have potentials, kinetic and potential energy together change by the work of
     the constant wrench alone, as they should. Elsewhere the increment is left as it is.
     """
-    pushed_by_water = at_stages(composition.water).push is not leave_wrench
+    pushed_by_water = composition.water.at_stages.forces is not as_it_is
     lacks_potentials = len(composition.potentials) < len(composition.pose_forces)
     if composition.velocity_forces or lacks_potentials or pushed_by_water:
 
@@ -169,7 +153,7 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
         return left_alone
     potential = join_potentials(composition.potentials)
     add_pose_forces = join_pose_forces(composition.pose_forces)
-    carry = at_stages(composition.water).carry
+    carry = composition.water.at_stages.carry
 
     def levelled(
         around: Surroundings,
@@ -199,15 +183,17 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
 
 def make_forced_step(composition: Composition, method: Collocation) -> Step:
     """Return (parameters, time, h, pose, momentum, wrench) -> (pose, momentum, report): one step of order 2s."""
-    forces_at, land = make_forces(composition), make_landing(composition)
-    carry = at_stages(composition.water).carry
+    forces_at, land = composition.stage_forces, make_landing(composition)
+    carry = composition.water.at_stages.carry
     weights, nodes = method.weights, method.nodes
 
     def evaluate(around: Surroundings, place: Place) -> ForcedStage:
-        twist = twist_from_momentum(around.parameters.inertia, place.momentum)
+        parameters, time = around.parameters, around.began + around.elapsed
+        twist = twist_from_momentum(parameters.inertia, place.momentum)
         pose = pose_from_parts(place.attitude, add(around.position, place.way))
-        pose = carry(around.parameters.water, around.began, around.elapsed, pose)
-        wrench = spatial_scale(around.h * around.h, forces_at(around, pose, twist))
+        pose = carry(parameters.water, around.began, around.elapsed, pose)
+        acting = forces_at(parameters, pose, spatial_scale(1.0 / around.h, twist), time, around.wrench)
+        wrench = spatial_scale(around.h * around.h, acting)
         rate = Place(
             spatial_add(momentum_bracket(twist, place.momentum), wrench),  # (G7)
             turned(place.attitude, scale(0.5, twist.angular)),  # (G8)

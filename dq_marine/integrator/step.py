@@ -24,7 +24,8 @@ from dq_marine.integrator.drift_report import DriftReport, drift_accepted, equat
 from dq_marine.integrator.forces import PoseForce, Potential, VelocityForce
 from dq_marine.integrator.inertia import Inertia, momentum_from_twist, twist_from_momentum
 from dq_marine.integrator.kick import Kick
-from dq_marine.integrator.water import Water, at_stages, leave_wrench
+from dq_marine.integrator.staged import StageForces, join_forces
+from dq_marine.integrator.water import Water, as_it_is
 
 ACCEPTED = 0
 NOT_CONVERGED = 1
@@ -72,7 +73,12 @@ class Composition:
     def forceless(self) -> bool:
         """Whether nothing acts on a body but a constant wrench; damping counts where it is a velocity force."""
         forces = self.pose_forces or self.velocity_forces
-        return not forces and at_stages(self.water).push is leave_wrench
+        return not forces and self.water.at_stages.forces is as_it_is
+
+    @property
+    def stage_forces(self) -> StageForces:
+        """All that acts on a body at a stage; damping counts where it is a velocity force."""
+        return self.water.at_stages.forces(join_forces(self.pose_forces, self.velocity_forces))
 
 
 class StepParameters(NamedTuple):

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.inertia import Inertia
+from dq_marine.integrator.staged import StageForces, Step
+
+Function = TypeVar("Function")
 
 CURRENT_DRAWS = 2
 """Uniform random numbers that an episode's current takes."""
@@ -30,21 +33,22 @@ class Placed(NamedTuple):
 
 WaterMove: TypeAlias = Callable[[Any, Inertia, float, float, DualQuaternion, Spatial], Placed]
 WaterCarry: TypeAlias = Callable[[Any, float, float, DualQuaternion], DualQuaternion]
-WaterPush: TypeAlias = Callable[[Any, DualQuaternion, Spatial], Spatial]
 
 
 class WaterAtStages(NamedTuple):
-    """What moving water does at the stages of a step.
+    """What moving water does to methods with stages.
 
     Attributes:
         carry: (parameters, time, elapsed, pose) -> pose that the water has carried along for `elapsed` seconds from
             `time`.
-        push: (parameters, pose, wrench) -> wrench, and what the momentum relative to the water gains because the water
-            accelerates.
+        forces: (forces in still water) -> forces in this water; `as_it_is` if they are the same.
+        step: (step in uniform water) -> step in this water, whose momentum is that relative to the water where the
+            body is; `as_it_is` if they are the same.
     """
 
     carry: WaterCarry
-    push: WaterPush
+    forces: Callable[[StageForces], StageForces]
+    step: Callable[[Step], Step]
 
 
 class Water(NamedTuple):
@@ -56,7 +60,7 @@ class Water(NamedTuple):
         depart: (parameters, inertia, time, h, pose, momentum) -> Placed: what the water does in the first half of a
             drift from `time` to `time + h`, taken before it.
         arrive: the same for the second half, taken after it.
-        at_stages: the same for methods with stages; None where the velocity depends on the depth.
+        at_stages: the same for methods with stages.
         velocity: (parameters, pose) -> velocity in NED where the body is.
         twist: (parameters, pose) -> the same as a twist in the body frame.
         evolve: (parameters, time, uniforms) -> parameters for the control period that begins at `time`.
@@ -67,24 +71,13 @@ class Water(NamedTuple):
     flow: Callable[[Any, Vector3], Any]
     depart: WaterMove
     arrive: WaterMove
-    at_stages: WaterAtStages | None
+    at_stages: WaterAtStages
     velocity: Callable[[Any, DualQuaternion], Vector3]
     twist: Callable[[Any, DualQuaternion], Spatial]
     evolve: Callable[[Any, float, Any], Any]
     draws: int
 
 
-def leave_wrench(parameters: Any, pose: DualQuaternion, wrench: Spatial) -> Spatial:
-    """Return the wrench: this water does not accelerate."""
-    return wrench
-
-
-def at_stages(water: Water) -> WaterAtStages:
-    """Return what water does at the stages of a step.
-
-    Raises:
-        TypeError: its velocity depends on the depth; scenes refuse that before.
-    """
-    if water.at_stages is None:
-        raise TypeError("the velocity of this water depends on the depth")
-    return water.at_stages
+def as_it_is(function: Function) -> Function:
+    """Return the function: this water changes nothing about it."""
+    return function

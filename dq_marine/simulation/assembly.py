@@ -26,7 +26,7 @@ from dq_marine.physics.actuators.build import ActuationTerm
 from dq_marine.physics.damping.build import DampingTerm
 from dq_marine.physics.matrices import inertia_term
 from dq_marine.physics.term import ForceTerm, WaterTerm, nested_parameters
-from dq_marine.simulation.collocated import COLLOCATED, Collocated, check_water
+from dq_marine.simulation.collocated import COLLOCATED, Collocated
 
 DRIFTS = {"midpoint": (midpoint_drift, midpoint_fallback), "paper": (paper_drift, paper_fallback)}
 """Schemes with a drift, by name: the drift, and its fallback."""
@@ -100,9 +100,7 @@ class Assembly:
             InvalidInputError: with the reason.
         """
         check_method(self.scheme, self.order)
-        if self._collocated:
-            check_water(self.scheme, self.water)
-        elif self.order > 4 and self.dissipation:
+        if self.order > 4 and self.dissipation and not self._collocated:
             raise InvalidInputError(
                 f"order = {self.order}, but there is {self.dissipation}: orders above 4 take negative stages, which "
                 "cannot undo it; give order 2 or 4, or leave it out"

@@ -11,14 +11,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple, TypeAlias
 
-from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.fallback import FallbackTiming
 from dq_marine.integrator.forces import Potential, VelocityForce
 from dq_marine.integrator.galerkin import PIECES, PiecesTiming, make_galerkin, make_in_pieces
 from dq_marine.integrator.gauss import make_gauss_method
 from dq_marine.integrator.step import Composition, make_advance
 from dq_marine.physics.damping.build import DampingTerm
-from dq_marine.physics.term import WaterTerm
 
 VelocityForces: TypeAlias = tuple[VelocityForce, ...]
 Potentials: TypeAlias = tuple[Potential, ...]
@@ -85,16 +83,3 @@ COLLOCATED = {
     "gauss": Collocated((8,), gauss_composition, gauss_timing),
 }
 """By name."""
-
-
-def check_water(scheme: str, water: WaterTerm) -> None:
-    """Refuse currents that vary with depth: these schemes do not know of them yet.
-
-    Raises:
-        InvalidInputError: with the reason.
-    """
-    if water.water.at_stages is None:
-        raise InvalidInputError(
-            f"scheme = {scheme!r}, but the current varies with depth ({water.name}); give a uniform current, or "
-            'scheme="midpoint"'
-        )

@@ -36,7 +36,7 @@ from dq_marine.integrator.forces import make_forced_kick
 from dq_marine.integrator.inertia import Inertia
 from dq_marine.integrator.kick import UndampedKick, undamped_kick
 from dq_marine.integrator.step import Advance, Composition, StepOutcome, StepParameters
-from dq_marine.report.baselines.dynamics import CARRIES, Point, make_landing
+from dq_marine.report.baselines.dynamics import Point, make_landing
 from dq_marine.report.baselines.normalisation import normalised
 
 MAX_ITERATIONS = 12
@@ -142,13 +142,13 @@ def make_decoupled_lie(composition: Composition) -> Advance:
     together.
     """
     kick = make_forced_kick(undamped_kick, composition.pose_forces, composition.velocity_forces)
-    carry = CARRIES[composition.water]
+    carry = composition.water.at_stages.carry
     land = make_landing(composition)
 
     def kicked(
         parameters: StepParameters, h: float, point: Point, start: float, elapsed: float, wrench: Spatial
     ) -> Point:
-        pose = carry(parameters.water, elapsed, pose_from_parts(point.attitude, point.position))
+        pose = carry(parameters.water, start, elapsed, pose_from_parts(point.attitude, point.position))
         momentum = kick(
             parameters.forces,
             (),
@@ -177,6 +177,6 @@ def make_decoupled_lie(composition: Composition) -> Advance:
             point = translate(inertia, half, turn_point(point, solved.vector))
             following = half if step == steps - 1 else h
             point = kicked(parameters, following, point, time, (step + 1) * h, wrench)
-        return land(parameters, state, point, steps, iterations)
+        return land(parameters, state, point, time, steps, iterations)
 
     return decoupled_lie

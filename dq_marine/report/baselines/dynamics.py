@@ -21,7 +21,6 @@ from dq_marine.algebra.quaternion import Quaternion
 from dq_marine.algebra.spatial import Spatial, spatial_add
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.body import BodyState
-from dq_marine.integrator.forces import join_pose_forces, join_velocity_forces
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import (
     ACCEPTED,
@@ -30,12 +29,6 @@ from dq_marine.integrator.step import (
     StepOutcome,
     StepParameters,
     arrival,
-)
-from dq_marine.physics.current.formulas.uniform import (
-    MOVING_WATER,
-    STILL_WATER,
-    carry_nothing,
-    carry_with_current,
 )
 
 
@@ -61,10 +54,7 @@ class Point(NamedTuple):
 
 Wrench: TypeAlias = Callable[[StepParameters, Point, Spatial, float, float, Spatial], Spatial]
 MomentumRate: TypeAlias = Callable[[StepParameters, Point, Spatial, float, float, Spatial], Spatial]
-CARRIES = {STILL_WATER: carry_nothing, MOVING_WATER: carry_with_current}
-"""(water's parameters, time [s], pose) -> pose displaced by the way of the water, for water that baselines take."""
-
-Land: TypeAlias = Callable[[StepParameters, BodyState, Point, int, int], StepOutcome]
+Land: TypeAlias = Callable[[StepParameters, BodyState, Point, float, int, int], StepOutcome]
 
 
 def make_wrench(composition: Composition) -> Wrench:
@@ -72,9 +62,7 @@ def make_wrench(composition: Composition) -> Wrench:
 
     `start` is the time of the call [s], at which the drifting frame was that of the world, `elapsed` the time since.
     """
-    add_pose_forces = join_pose_forces(composition.pose_forces)
-    add_velocity_forces = join_velocity_forces(composition.velocity_forces)
-    carry = CARRIES[composition.water]
+    forces_at, carry = composition.stage_forces, composition.water.at_stages.carry
 
     def total(
         parameters: StepParameters,
@@ -84,9 +72,8 @@ def make_wrench(composition: Composition) -> Wrench:
         elapsed: float,
         wrench: Spatial,
     ) -> Spatial:
-        pose = carry(parameters.water, elapsed, pose_from_parts(point.attitude, point.position))
-        posed = add_pose_forces(parameters.forces[0], pose, start + elapsed, wrench)
-        return add_velocity_forces(parameters.forces[1], pose, twist, start + elapsed, posed)
+        pose = carry(parameters.water, start, elapsed, pose_from_parts(point.attitude, point.position))
+        return forces_at(parameters, pose, twist, start + elapsed, wrench)
 
     return total
 
@@ -115,17 +102,17 @@ def twist_at(parameters: StepParameters, point: Point) -> Spatial:
 
 
 def make_landing(composition: Composition) -> Land:
-    """Return (parameters, state, point, steps, iterations) -> the outcome of a call that began at `state`.
+    """Return (parameters, state, point, start, steps, iterations) -> the outcome of a call that began at `state`.
 
     A baseline refuses nothing but what is not finite.
     """
-    carry = CARRIES[composition.water]
+    carry = composition.water.at_stages.carry
 
     def land(
-        parameters: StepParameters, state: BodyState, point: Point, steps: int, iterations: int
+        parameters: StepParameters, state: BodyState, point: Point, start: float, steps: int, iterations: int
     ) -> StepOutcome:
         pose = pose_from_parts(point.attitude, point.position)
-        arrived = carry(parameters.water, steps * parameters.timing.h, pose)
+        arrived = carry(parameters.water, start, steps * parameters.timing.h, pose)
         return arrival(state, arrived, point.momentum, Progress(True, ACCEPTED, steps, iterations, 0, 0.0))
 
     return land

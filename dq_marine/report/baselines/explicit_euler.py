@@ -34,6 +34,6 @@ def make_explicit_euler(composition: Composition) -> Advance:
                 add_scaled(point.position, h, rotate(point.attitude, twist.linear)),
                 spatial_add_scaled(point.momentum, h, rate),
             )
-        return land(parameters, state, point, steps, 0)
+        return land(parameters, state, point, time, steps, 0)
 
     return explicit_euler

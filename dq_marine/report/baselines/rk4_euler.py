@@ -132,6 +132,6 @@ def make_rk4_euler(composition: Composition) -> Advance:
             k4 = rates_at(parameters, shifted(posture, h, k3), time, end, wrench)
             posture = shifted(posture, h / 6.0, weighted(k1, k2, k3, k4))
         attitude = attitude_of(halves(posture.angles))
-        return land(parameters, state, Point(attitude, posture.position, posture.momentum), steps, 0)
+        return land(parameters, state, Point(attitude, posture.position, posture.momentum), time, steps, 0)
 
     return rk4_euler

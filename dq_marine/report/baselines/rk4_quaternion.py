@@ -97,6 +97,6 @@ def make_rk4_quaternion(composition: Composition) -> Advance:
             k4 = rates_at(parameters, moved(point, h, k3), time, end, wrench)
             reached = moved(point, h / 6.0, simpson(k1, k2, k3, k4))
             point = Point(normalised(reached.attitude), reached.position, reached.momentum)
-        return land(parameters, state, point, steps, 0)
+        return land(parameters, state, point, time, steps, 0)
 
     return rk4_quaternion

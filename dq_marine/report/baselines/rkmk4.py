@@ -90,6 +90,6 @@ def make_rkmk4(composition: Composition) -> Advance:
             impulse = simpson(k1.impulse, k2.impulse, k3.impulse, k4.impulse)
             reached = arrived(point, u, spatial_add(mu, impulse))
             point = Point(normalised(reached.attitude), reached.position, reached.momentum)
-        return land(parameters, state, point, steps, 0)
+        return land(parameters, state, point, time, steps, 0)
 
     return rkmk4

@@ -37,6 +37,6 @@ def make_semi_implicit_euler(composition: Composition) -> Advance:
             attitude = turned(point.attitude, h, twist.angular)
             position = add_scaled(point.position, h, rotate(attitude, twist.linear))
             point = Point(attitude, position, momentum)
-        return land(parameters, state, point, steps, 0)
+        return land(parameters, state, point, time, steps, 0)
 
     return semi_implicit_euler

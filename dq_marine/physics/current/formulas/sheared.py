@@ -19,13 +19,13 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_position, pose_translate
-from dq_marine.algebra.matrix3 import transform
 from dq_marine.algebra.nesting import folded
 from dq_marine.algebra.quaternion import rotate, rotate_inverse
-from dq_marine.algebra.spatial import Spatial, spatial_add_scaled
+from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import Vector3, scale, subtract
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 from dq_marine.integrator.water import Placed, Water
+from dq_marine.physics.current.formulas.sheared_stages import make_sheared_stages, slip
 from dq_marine.physics.current.formulas.uniform import draw_current, stay
 
 Change: TypeAlias = Callable[[Any, float], tuple[float, float]]
@@ -116,17 +116,10 @@ def make_sheared_water(layers: int) -> Water:
         slipped = slip(inertia, pose, momentum, subtract(here, there))  # (S2)
         return Placed(pose_translate(pose, scale(0.5 * h, here)), slipped)
 
-    return Water(draw_current, same_profile, depart, arrive, None, velocity, twist, stay, 0)
+    stages = make_sheared_stages(velocity)
+    return Water(draw_current, same_profile, depart, arrive, stages, velocity, twist, stay, 0)
 
 
 def sinking(inertia: Inertia, pose: DualQuaternion, momentum: Spatial) -> float:
     """Return the rate of the depth [m/s]; the water itself moves horizontally."""
     return rotate(pose.real, twist_from_momentum(inertia, momentum).linear)[2]
-
-
-def slip(inertia: Inertia, pose: DualQuaternion, momentum: Spatial, change: Vector3) -> Spatial:
-    """Return the momentum relative to water whose velocity in NED is another by `change`, the body's being the same."""
-    turned = rotate_inverse(pose.real, change)
-    matrix = inertia.matrix
-    impulse = Spatial(transform(matrix.angular_linear, turned), transform(matrix.linear, turned))
-    return spatial_add_scaled(momentum, -1.0, impulse)

@@ -16,7 +16,7 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.spatial import ZERO, Spatial
 from dq_marine.algebra.vector3 import Vector3, add, scale
 from dq_marine.integrator.inertia import Inertia
-from dq_marine.integrator.water import CurrentDraw, Placed, Water, WaterAtStages, leave_wrench
+from dq_marine.integrator.water import CurrentDraw, Placed, Water, WaterAtStages, as_it_is
 
 
 class UniformFlow(NamedTuple):
@@ -32,24 +32,16 @@ def draw_current(draw: CurrentDraw, of_speed: float, of_direction: float) -> Vec
     return add(draw.fixed, (speed * math.cos(direction), speed * math.sin(direction), 0.0))
 
 
-def carry_with_current(current: UniformFlow, h: float, pose: DualQuaternion) -> DualQuaternion:
-    """Return the pose displaced by the water's way in h seconds."""
-    return pose_translate(pose, scale(h, current.velocity))
+def carry_with_current(
+    current: UniformFlow, time: float, elapsed: float, pose: DualQuaternion
+) -> DualQuaternion:
+    """Return the pose displaced by the water's way in `elapsed` seconds."""
+    return pose_translate(pose, scale(elapsed, current.velocity))
 
 
-def carry_nothing(parameters: Any, h: float, pose: DualQuaternion) -> DualQuaternion:
+def carry_nothing(parameters: Any, time: float, elapsed: float, pose: DualQuaternion) -> DualQuaternion:
     """Return the pose."""
     return pose
-
-
-def stay_put(parameters: Any, time: float, elapsed: float, pose: DualQuaternion) -> DualQuaternion:
-    """Return the pose."""
-    return pose
-
-
-def carry_along(current: UniformFlow, time: float, elapsed: float, pose: DualQuaternion) -> DualQuaternion:
-    """Return the pose displaced by the water's way."""
-    return carry_with_current(current, elapsed, pose)
 
 
 def leave_be(
@@ -63,7 +55,7 @@ def displace(
     current: UniformFlow, inertia: Inertia, time: float, h: float, pose: DualQuaternion, momentum: Spatial
 ) -> Placed:
     """Return the pose displaced by the water's way in all of h, and the momentum: neither half matters to the other."""
-    return Placed(carry_with_current(current, h, pose), momentum)
+    return Placed(carry_with_current(current, time, h, pose), momentum)
 
 
 def current_velocity(current: UniformFlow, pose: DualQuaternion) -> Vector3:
@@ -101,8 +93,8 @@ def stay(parameters: Any, time: float, uniforms: Any) -> Any:
     return parameters
 
 
-STILL = WaterAtStages(stay_put, leave_wrench)
-MOVING = WaterAtStages(carry_along, leave_wrench)
+STILL = WaterAtStages(carry_nothing, as_it_is, as_it_is)
+MOVING = WaterAtStages(carry_with_current, as_it_is, as_it_is)
 
 STILL_WATER = Water(draw_current, no_flow, leave_be, leave_be, STILL, no_velocity, no_twist, stay, 0)
 MOVING_WATER = Water(

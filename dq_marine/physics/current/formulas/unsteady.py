@@ -17,6 +17,7 @@ exact for any T. T is the control period, in which u goes linearly from the one 
 
 from __future__ import annotations
 
+import functools
 from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_translate
@@ -25,7 +26,9 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.spatial import Spatial, spatial_add
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale, subtract
 from dq_marine.integrator.inertia import Inertia
-from dq_marine.integrator.water import CurrentDraw, Placed, Water, WaterAtStages
+from dq_marine.integrator.staged import StageForces
+from dq_marine.integrator.step import StepParameters
+from dq_marine.integrator.water import CurrentDraw, Placed, Water, WaterAtStages, as_it_is
 
 
 class Course(NamedTuple):
@@ -113,10 +116,19 @@ def carry_unsteadily(
     return pose_translate(pose, scale(elapsed, course_velocity(current.course, time + 0.5 * elapsed)))
 
 
-def push_unsteadily(current: UnsteadyCurrent, pose: DualQuaternion, wrench: Spatial) -> Spatial:
-    """Return the wrench and the rate of (U1)."""
-    rate, displaced = rotate_inverse(pose.real, current.course.rate), current.displacement
-    return spatial_add(wrench, Spatial(cross(displaced.moment, rate), scale(displaced.excess, rate)))
+@functools.cache
+def in_accelerating_water(forces: StageForces) -> StageForces:
+    """Return the forces in still water, and the rate of (U1)."""
+
+    def forces_in_accelerating_water(
+        parameters: StepParameters, pose: DualQuaternion, twist: Spatial, time: float, wrench: Spatial
+    ) -> Spatial:
+        course, displaced, _ = parameters.water
+        rate = rotate_inverse(pose.real, course.rate)
+        push = Spatial(cross(displaced.moment, rate), scale(displaced.excess, rate))
+        return spatial_add(forces(parameters, pose, twist, time, wrench), push)
+
+    return forces_in_accelerating_water
 
 
 def depart_unsteadily(
@@ -171,7 +183,7 @@ UNSTEADY_WATER = Water(
     steady_course,
     depart_unsteadily,
     arrive_unsteadily,
-    WaterAtStages(carry_unsteadily, push_unsteadily),
+    WaterAtStages(carry_unsteadily, in_accelerating_water, as_it_is),
     unsteady_velocity,
     unsteady_twist,
     wander,
