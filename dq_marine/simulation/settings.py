@@ -78,7 +78,7 @@ class Settings:
             attitude, so that it may capsize, dive or leave the water.
         scheme: "midpoint"; "paper" for that of Xu and Halse; "galerkin" for the variational integrators whose orders
             above 2 need no substeps; or "gauss" for collocation on the momentum, exact in momentum and energy but not
-            variational. The last two do not take a current that varies with depth.
+            variational.
         order: of the method: 2 or 4, and 6 or 8 where nothing takes energy, or with "galerkin"; 8 of "gauss".
         kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
         control_period: time between actions [s].

@@ -12,6 +12,7 @@ from support.bodies import make_body
 from support.counting import counted, operations_of
 
 import dq_marine
+from dq_marine import CurrentProfile
 from dq_marine.algebra.spatial import from_fossen
 from dq_marine.backend.fingerprint import all_used_functions
 from dq_marine.integrator.kick import undamped_kick
@@ -76,6 +77,22 @@ def test_what_a_scene_lacks_is_not_used():
         for function in all_used_functions(make_advance(Scene(current=(1, 0, 0)).composition))
     }
     assert absent - {"linear_kick"} <= full
+
+
+def test_methods_with_stages_have_of_the_water_what_the_scene_has():
+    """Uniform water is none of their forces, changes nothing about their steps, and is used as it is."""
+    sheared = {"forces_in_shear", "step_from_start", "shear_force", "carry_from_depth", "slip"}
+    accelerating = {"forces_in_accelerating_water", "carry_unsteadily"}
+    profile = CurrentProfile([0.0, 9.0], [[0.5, 0.0], [0.0, 0.0]])
+    for scheme, order in (("gauss", 8), ("galerkin", 4)):
+        used = {}
+        for name, current in (("still", (0, 0, 0)), ("uniform", (1, 0, 0)), ("profile", profile)):
+            advance = make_advance(Scene(scheme=scheme, order=order, current=current).composition)
+            used[name] = {function.__name__ for function in all_used_functions(advance)}
+        assert used["uniform"] - used["still"] <= {"carry_with_current", "pose_translate", "displace"}
+        assert not (used["still"] | used["uniform"]) & (sheared | accelerating)
+        assert sheared <= used["profile"]
+        assert not used["profile"] & accelerating
 
 
 def test_terms_present_but_zero_give_the_same_trajectory():

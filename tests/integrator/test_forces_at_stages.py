@@ -6,7 +6,7 @@ from support.bodies import PlainBody
 from support.order import observed_order
 from support.sweeps import sweep
 
-from dq_marine import Jonswap, Scene, Sea, Wind, load_vehicle
+from dq_marine import CurrentProfile, Jonswap, Scene, Sea, Wind, load_vehicle
 from dq_marine.algebra.dual_quaternion import pose_position
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.spatial import Spatial
@@ -25,9 +25,13 @@ def tether(parameters, pose, time):
     return Spatial((0.0, 0.0, 0.0), rotate_inverse(pose.real, pull))
 
 
+LAYER = CurrentProfile([0.0, 9.0], [[0.9, -0.2], [-0.6, 0.4]])
+"""One that the body does not leave: at the corners of a profile no method keeps an order above two."""
+
 FORCES = {
     "weight, buoyancy and linear damping": ("bluerov2_heavy", {}),
     "a current": ("bluerov2_heavy", {"current": (0.3, 0.2, 0.1)}),
+    "a current that varies with depth": ("bluerov2_heavy", {"current": LAYER}),
     "waves on a submerged body": ("bluerov2_heavy", {"weather": [Sea(Jonswap(1.0, 6.0), components=3)]}),
     "a force of one's own": ("bluerov2_heavy", {"forces": [ForceTerm("tether", tether, (5.0,))]}),
     "thrusters with lags": ("bluerov2_heavy", {"actuation": "thrusters"}),

@@ -14,13 +14,10 @@ from dq_marine.algebra.frames import pose_relative
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.screw import pose_exp, pose_log
 from dq_marine.algebra.spatial import Spatial
-from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.drift_report import equation_met
 from dq_marine.integrator.galerkin_drift import make_galerkin_drift
 from dq_marine.integrator.midpoint_drift import midpoint_drift
-from dq_marine.physics.current.build import CurrentProfile
 from dq_marine.physics.matrices import inertia_term
-from dq_marine.simulation.scene import Scene
 
 ORIGIN = pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 FREE = np.zeros(6)
@@ -242,9 +239,3 @@ def test_a_rotated_start_gives_the_rotated_end_to_round_off():
     assert np.allclose(pose_numbers(dual_multiply(turn, here)), pose_numbers(there), rtol=0, atol=1e-14)
     assert np.allclose(flat(carried), flat(same), rtol=0, atol=1e-14)
     assert np.allclose(rotate(here.real, carried.linear), momentum.linear, rtol=0, atol=1e-14)
-
-
-def test_water_that_varies_with_depth_is_refused_with_the_reason():
-    current = CurrentProfile([0.0, 9.0], [[0.5, 0.0], [0.0, 0.0]])
-    with pytest.raises(InvalidInputError, match=r"galerkin.*the current varies with depth.*midpoint"):
-        Scene(scheme="galerkin", order=8, current=current)

@@ -9,7 +9,6 @@ from support.fossen import errors, solve
 from support.order import observed_order
 from support.sweeps import sweep
 
-from dq_marine import CurrentProfile
 from dq_marine.algebra.dual_quaternion import pose_from_parts, pose_position
 from dq_marine.algebra.quaternion import rotate_inverse, world_down_in_body
 from dq_marine.algebra.spatial import Spatial, from_fossen
@@ -63,7 +62,6 @@ def brake(parameters, pose, twist, time):
     return Spatial(scale(-parameters[0], twist.angular), scale(-parameters[0], twist.linear))
 
 
-PROFILE = CurrentProfile([0.0, 10.0], [(0.5, 0.0), (0.1, 0.0)])
 CASES = {"free": {}, "restoring, current and wrench": GRAVITY}
 
 
@@ -261,13 +259,8 @@ def test_sweeps_that_overflow_are_not_taken_for_converged():
 # What is refused
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"order": 2}, r"order = 2, but scheme = 'gauss' has order 8 alone; give order=8"),
-        ({"order": 8, "current": PROFILE}, r"scheme = 'gauss', but the current varies with depth"),
-    ],
-)
-def test_what_it_does_not_have_is_refused_with_the_reason(arguments, message):
-    with pytest.raises(InvalidInputError, match=message):
-        Scene(scheme="gauss", **arguments)
+def test_what_it_does_not_have_is_refused_with_the_reason():
+    with pytest.raises(
+        InvalidInputError, match=r"order = 2, but scheme = 'gauss' has order 8 alone; give order=8"
+    ):
+        Scene(scheme="gauss", order=2)

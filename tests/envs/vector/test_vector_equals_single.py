@@ -47,6 +47,7 @@ def test_flights_are_the_same_for_any_number_of_environments_and_threads(count, 
 
 
 GAUSS_MARKOV = {"mean": (0.1, 0.0, 0.0), "standard_deviation": 0.2, "correlation_time": 5.0}
+PROFILE = {"depths": (3.0, 5.0, 8.0), "velocities": ((0.5, 0.0), (0.2, 0.3), (-0.4, 0.0))}
 KEYWORDS = {
     "still water": {"current": 0.0, "substeps": 1, "start_radius": 0.0},
     "fixed current": {
@@ -59,7 +60,9 @@ KEYWORDS = {
     "three axes": {"vehicle": some_axes(), "start_radius": 5.0},
     "thrusters": {"actuation": "thrusters"},
     "actuators of every kind": {"actuation": "thrusters", "vehicle": everything(), "current": 0.0},
-    "profile": {"current": {"depths": (3.0, 5.0, 8.0), "velocities": ((0.5, 0.0), (0.2, 0.3), (-0.4, 0.0))}},
+    "profile": {"current": PROFILE},
+    "profile, gauss": {"current": PROFILE, "scheme": "gauss", "order": 8, "substeps": 1},
+    "profile, galerkin": {"current": PROFILE, "scheme": "galerkin", "order": 4, "substeps": 1},
     "Gauss-Markov": {"current": GAUSS_MARKOV},
     "Gauss-Markov, gauss": {"current": GAUSS_MARKOV, "scheme": "gauss", "order": 8, "substeps": 1},
     "all but actuators and wind": driven_by_wrenches() | {"max_episode_steps": 20},

@@ -1,16 +1,16 @@
 """Water that varies with depth, for methods with stages: relative to the water at the depth where a step begins.
 
-With d = u(z) - u(z0) the difference to the water at that depth and e = [0; R^T d] as a twist, the momentum is taken
-relative to the water at z0, which moves uniformly (docs/theory.md, "Current"):
+With d = u(z) - u(z0) the difference to the water at that depth, and k = [0; R^T d] the same as a twist, the momentum is
+taken relative to the water at z0, which moves uniformly (docs/theory.md, "Current"):
 
-    y = mu + M e                                                                                        (S3)
-    chi_0 = M^-1 y,   chi = chi_0 - e                                                                   (S4)
-    y' = ad*_chi_0 y + F(p, chi, t) + G                                                                 (S5)
-    G = -ad*_chi_0 (M e) - [b x R^T d; 0] - M [0; omega x R^T d],   b the linear part of M chi          (S6)
+    y = mu + M k                                                                                      (S3)
+    chi_0 = M^-1 y,   chi = chi_0 - k                                                                 (S4)
+    y' = ad*_chi_0 y + F(p, chi, t) + Q                                                               (S5)
+    Q = -ad*_chi_0 (M k) - [b x R^T d; 0] - M [0; omega x R^T d],   b the linear part of M chi        (S6)
 
-In the frame that drifts with u(z0) the pose moves with the twist chi_0. To the method this is therefore a uniform
-current and a force more. No slope of u is in it: at a corner of the profile the rates of y are continuous. At the
-step's start y is mu, and at its end mu follows from (S3).
+Seen from the frame that drifts with u(z0), the pose moves with the twist chi_0. To the method this is therefore a
+uniform current and one force more. It has no slope of u: at a corner of the profile the rates of y are continuous. At
+the step's start y is mu, and at its end mu follows from (S3).
 """
 
 from __future__ import annotations
