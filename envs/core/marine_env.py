@@ -153,7 +153,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             InvalidInputError: the action has a wrong shape or a NaN or infinity; the state is untouched.
             ResetNeeded: before the first reset.
         """
-        episode = self._running("step")
+        episode = self._episode or self._running("step")
         whole = whole_action(self.action_mapping, action)
         draws = self._period_draws
         uniforms = drawn_uniforms(self.np_random, draws, whole) if draws else NO_UNIFORMS
