@@ -11,6 +11,7 @@ from suite import (
     memory,
     one_body,
     ppo,
+    schemes,
     terms,
     water,
 )
@@ -24,6 +25,7 @@ SECTIONS: dict[str, Section] = {
         water,
         batch,
         environments,
+        schemes,
         baseline,
         ppo,
         compile_times,
