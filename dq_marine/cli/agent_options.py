@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -138,7 +139,7 @@ def parsed_current(text: str) -> float | list[float]:
 
 def _findable(vehicle: str) -> str:
     """Return a file's absolute path, so that a run can be flown from any folder; a catalogue name as it is."""
-    path = Path(vehicle).expanduser()
+    path = Path(os.path.expanduser(vehicle))  # unlike Path.expanduser, it leaves a user that there is not
     if vehicle in vehicle_names() or not path.is_file():
         return vehicle
     return str(path.resolve())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal, Self, TypeAlias, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from dq_marine.checks import shown
 from dq_marine.physics.implausible import Implausible
@@ -22,8 +22,21 @@ MOTIONS: tuple[str, ...] = get_args(Motion)
 LARGEST_NUMBER = 1e20
 """Of a vehicle file. The largest in the catalogue, a moment of inertia of a tanker, is below 1e14."""
 
+SMALLEST_NUMBER = 1e-20
+"""Of a vehicle file, where a number must be above 0: products of several, by which others are divided, stay so."""
+
+
+def _not_vanishing(value: float) -> float:
+    """Return a number that must be above 0, if it is not so small that its products are 0."""
+    if 0.0 < value < SMALLEST_NUMBER:
+        raise ValueError(
+            f"no ship has a number below {SMALLEST_NUMBER:g} in SI units; check exponent and unit"
+        )
+    return value
+
+
 NonNegative: TypeAlias = Annotated[float, Field(ge=0)]
-Positive: TypeAlias = Annotated[float, Field(gt=0)]
+Positive: TypeAlias = Annotated[float, Field(gt=0), AfterValidator(_not_vanishing)]
 NonNegative6: TypeAlias = tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative]
 
 

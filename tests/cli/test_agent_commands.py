@@ -104,6 +104,12 @@ def test_a_printed_preset_is_read_back(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [mine]
 
 
+def test_a_vehicle_in_the_folder_of_nobody_is_refused(tmp_path: Path) -> None:
+    """It was a RuntimeError: there is no home directory of this user."""
+    result = run("fly", "--vehicle", "~nobody-of-this-name/rov.toml", "--html", tmp_path / "flight.html")
+    assert_refused(result, "~nobody-of-this-name/rov.toml' is no path of a file")
+
+
 def test_training_needs_a_folder() -> None:
     result = run("train")
     assert result.exit_code == 2

@@ -111,8 +111,16 @@ def spoilt(rng: Rng, value: Any) -> Any:
         wrong.reshape(-1)[rng.integers(value.size)] = strange_number(rng)
         return wrong
     if isinstance(value, int | float) and not isinstance(value, bool):
-        return value * strange_number(rng) if kind == 4 else strange_number(rng)
+        return times(value, strange_number(rng)) if kind == 4 else strange_number(rng)
     return hostile(rng)
+
+
+def times(value: float, factor: float) -> float:
+    """The product; the factor alone where it is a whole number beyond any double."""
+    try:
+        return value * factor
+    except OverflowError:
+        return factor
 
 
 def arguments(rng: Rng, valid: dict[str, Callable[[Rng], Any]], most: int = 4) -> dict[str, Any]:

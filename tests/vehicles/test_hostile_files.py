@@ -42,6 +42,13 @@ def test_numbers_beyond_anything_that_floats_are_refused(changed, number):
         load_vehicle(changed("\nmass = ", f"\nmass = {number} # "))
 
 
+@pytest.mark.parametrize("line", ["\nvolume = ", "\nlength = ", "\nmass = ", "\nwater_density = "])
+def test_numbers_whose_products_vanish_are_refused(changed, line):
+    """A quotient by such a product was a ZeroDivisionError."""
+    with pytest.raises(VehicleFileError, match=r"no ship has a number below 1e-20.*check exponent and unit"):
+        load_vehicle(changed(line, f"{line}1e-310 # "))
+
+
 def test_control_characters_are_refused(changed):
     with pytest.raises(VehicleFileError, match="control characters"):
         load_vehicle(changed('name = "', r'name = "\u001b[31m'))
