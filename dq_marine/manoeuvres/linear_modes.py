@@ -59,14 +59,14 @@ def linear_mode(vehicle: Vehicle, axis: int) -> LinearMode | None:
     """Return the oscillation in which an axis takes most part, the others free to follow; None if none oscillates.
 
     Args:
-        vehicle: M, its linear damping D and G are used.
+        vehicle: M, its linear damping D at rest and G are used.
         axis: 2 heave, 3 roll, 4 pitch.
     """
     inverse = np.linalg.inv(vehicle.mass_matrix)
     system = np.block(
         [
             [np.zeros((6, 6)), np.eye(6)],
-            [-inverse @ stiffness_matrix(vehicle), -inverse @ vehicle.linear_damping],
+            [-inverse @ stiffness_matrix(vehicle), -inverse @ vehicle.damping_at_rest],
         ]
     )
     rates, shapes = np.linalg.eig(system)

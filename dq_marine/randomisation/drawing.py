@@ -106,11 +106,16 @@ def varied_added_mass(draw: AddedMassDraw, vehicle: Vehicle, rng: np.random.Gene
 def varied_damping(draw: DampingDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
     """Return the tables of other damping and cross-flow drag, which take energy as the vehicle's own do."""
     changed: Content = {}
+    blended = [one.model_dump() for one in vehicle.damping.blended]
+    # A blend is drawn as a whole: its two parts apart could make resistance that falls as the speed grows.
     if draw.linear is not None or draw.linear_coupling > 0.0:
         scale = np.sqrt(np.diag(vehicle.mass_matrix))
         coupling = drawn_coupling(draw.linear_coupling, 6, rng)
         factors = _factors(draw.linear, 6, rng)
         changed["linear"] = scaled_and_coupled(vehicle.linear_damping, factors, coupling, scale).tolist()
+        for one, own in zip(blended, vehicle.damping.blended, strict=True):
+            if own.quadratic == 0.0:
+                one["linear"] *= factors[own.index]
     cross_flow = [strips.model_dump() for strips in vehicle.cross_flow]
     if draw.quadratic is not None:
         factors = _factors(draw.quadratic, 6, rng)
@@ -121,9 +126,14 @@ def varied_damping(draw: DampingDraw, vehicle: Vehicle, rng: np.random.Generator
             | {"coefficient": coupling.coefficient * _root(factors, *coupling.indices[:2])}
             for coupling in vehicle.damping.couplings
         ]
-        for strips, own in zip(cross_flow, vehicle.cross_flow, strict=True):
-            across = factors[1 if own.plane == "sway" else 2]
-            strips |= {"drag_coefficient": own.section_drag * across, "beam": None}
+        for one, own in zip(blended, vehicle.damping.blended, strict=True):
+            if own.quadratic > 0.0:
+                one["linear"] *= factors[own.index]
+                one["quadratic"] *= factors[own.index]
+        for strips, drag in zip(cross_flow, vehicle.cross_flow, strict=True):
+            across = factors[1 if drag.plane == "sway" else 2]
+            strips |= {"drag_coefficient": drag.section_drag * across, "beam": None}
+    changed["blended"] = blended
     return {"damping": vehicle.damping.model_dump() | changed, "cross_flow": cross_flow}
 
 

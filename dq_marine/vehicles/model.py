@@ -15,6 +15,7 @@ from pydantic import Field, model_validator
 
 from dq_marine.physics.actuators.tables import ActuatorSet, Azimuth, ChannelSheet, Fin, Thruster
 from dq_marine.physics.constants import GRAVITY
+from dq_marine.physics.damping.blended_table import BlendedDamping
 from dq_marine.physics.damping.coupling_table import DampingCoupling, coupling_tensor
 from dq_marine.physics.damping.cross_flow_table import CrossFlow
 from dq_marine.physics.fields import (
@@ -71,11 +72,13 @@ class Damping(Table):
         linear: six numbers or a 6x6 matrix [N s/m, N s, N m s].
         quadratic: coefficients of |nu_i| nu_i [N s^2/m^2, N m s^2].
         couplings: forces by other velocities and speeds: drag that couples axes, lift.
+        blended: linear damping at rest that gives way to quadratic, or to none, under way.
     """
 
     linear: Matrix6
     quadratic: NonNegative6 = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     couplings: tuple[DampingCoupling, ...] = ()
+    blended: tuple[BlendedDamping, ...] = ()
 
 
 class Limits(Table):
@@ -240,6 +243,14 @@ class Vehicle(Table):
     def linear_damping(self) -> NDArray[np.float64]:
         """Linear damping matrix, shape (6, 6)."""
         return np.array(self.damping.linear)
+
+    @property
+    def damping_at_rest(self) -> NDArray[np.float64]:
+        """Linear damping matrix of small motions without way on: with the linear part of blends, shape (6, 6)."""
+        damping = self.linear_damping
+        for blended in self.damping.blended:
+            damping[blended.index, blended.index] += blended.linear
+        return damping
 
     @property
     def quadratic_damping(self) -> NDArray[np.float64]:

@@ -9,7 +9,8 @@ from dq_marine.backend.packing import pack, unpack
 from dq_marine.integrator.body import AT_REST
 from dq_marine.integrator.step import ACCEPTED, make_advance
 from dq_marine.physics.current.build import uniform_water
-from dq_marine.physics.damping.build import DampingTerm, StripTerm
+from dq_marine.physics.damping.build import BlendTerm, DampingTerm, StripTerm
+from dq_marine.physics.damping.formulas.blended import Blend
 from dq_marine.physics.damping.formulas.coupled import HEAVE_PLANE, SWAY_PLANE
 from dq_marine.physics.damping.formulas.cross_flow import StripRow
 from dq_marine.physics.hydrostatics.build import restoring_terms
@@ -71,7 +72,7 @@ def random_quaternion(rng):
     return q / np.linalg.norm(q)
 
 
-def make_damping(mass_matrix, linear, quadratic, couplings=None, strips=(), l_stable=True):
+def make_damping(mass_matrix, linear, quadratic, couplings=None, strips=(), l_stable=True, blends=()):
     """A `DampingTerm`; see `make_body`."""
     terms = []
     for plane, (coefficient, first, spacing, number) in strips:
@@ -79,7 +80,8 @@ def make_damping(mass_matrix, linear, quadratic, couplings=None, strips=(), l_st
         row = StripRow(coefficient, side * first, side * spacing)
         terms.append(StripTerm(SWAY_PLANE if plane == "sway" else HEAVE_PLANE, row, number))
     tensor = np.zeros((6, 6, 6)) if couplings is None else np.asarray(couplings, dtype=float)
-    return DampingTerm(linear, quadratic, mass_matrix, l_stable, tensor, tuple(terms))
+    blended = tuple(BlendTerm(axis, Blend(*numbers)) for axis, numbers in blends)
+    return DampingTerm(linear, quadratic, mass_matrix, l_stable, tensor, tuple(terms), blended)
 
 
 def make_body(
@@ -92,6 +94,7 @@ def make_body(
     quadratic=None,
     couplings=None,
     strips=(),
+    blends=(),
     current=(0.0, 0.0, 0.0),
     scheme="midpoint",
     order=2,
@@ -101,7 +104,8 @@ def make_body(
 ):
     """A `OneBody` with any M, restoring, damping (Fossen's order), current and forces; or a `PlainBody`.
 
-    Couplings are the tensor c_ijk, strips pairs (plane "sway" or "heave", (c, first x, spacing, number)).
+    Couplings are the tensor c_ijk, strips pairs (plane "sway" or "heave", (c, first x, spacing, number)),
+    blends pairs (axis, (linear, quadratic, crossover)).
     """
     mass_matrix = np.asarray(mass_matrix, dtype=float)
     linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)
@@ -109,7 +113,7 @@ def make_body(
     assembly = Assembly(
         mass_matrix,
         (*restoring_terms(excess_weight, np.asarray(arm, dtype=float)), *forces),
-        make_damping(mass_matrix, linear, quadratic, couplings, strips, l_stable),
+        make_damping(mass_matrix, linear, quadratic, couplings, strips, l_stable, blends),
         current if isinstance(current, WaterTerm) else uniform_water(np.asarray(current, dtype=float)),
         scheme,
         order,

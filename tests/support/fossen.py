@@ -36,6 +36,14 @@ def strip_drag(plane, coefficient, first, spacing, number, nu):
     return drag
 
 
+def blended_drag(axis, linear, quadratic, crossover, nu):
+    """Drag in one axis that is linear at rest and quadratic far beyond a surge speed."""
+    under_way = np.tanh(abs(nu[0]) / crossover)
+    drag = np.zeros(6)
+    drag[axis] = ((1.0 - under_way) * linear + under_way * quadratic * abs(nu[axis])) * nu[axis]
+    return drag
+
+
 def solve(
     m,
     position,
@@ -49,6 +57,7 @@ def solve(
     quadratic=None,
     couplings=None,
     strips=(),
+    blends=(),
     current=(0.0, 0.0, 0.0),
     wrench=(0.0,) * 6,
     rtol=1e-12,
@@ -75,6 +84,8 @@ def solve(
         force = force - np.einsum("ijk,j,k->i", couplings, relative, np.abs(relative))
         for plane, row in strips:
             force = force - strip_drag(plane, *row, relative)
+        for axis, numbers in blends:
+            force = force - blended_drag(axis, *numbers, relative)
         # The water's velocity is constant in NED, hence turns in the body frame.
         turning = np.concatenate([-np.cross(nu[3:], water[:3]), np.zeros(3)])
         return np.concatenate([r @ nu[:3], (r @ skew(nu[3:])).ravel(), inverse @ force + turning])

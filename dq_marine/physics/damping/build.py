@@ -23,6 +23,7 @@ from dq_marine.integrator.kick import (
 )
 from dq_marine.integrator.rosenbrock import make_rosenbrock_kick
 from dq_marine.integrator.strang import StrangTiming
+from dq_marine.physics.damping.formulas.blended import Blend
 from dq_marine.physics.damping.formulas.coupled import (
     HEAVE_PLANE,
     SWAY_PLANE,
@@ -59,6 +60,13 @@ class StripTerm(NamedTuple):
     number: int
 
 
+class BlendTerm(NamedTuple):
+    """Blended damping of an axis, an index in Fossen's order."""
+
+    axis: int
+    blend: Blend
+
+
 class DampingTerm(NamedTuple):
     """All damping of a body in Fossen's order, with the M it acts on.
 
@@ -69,6 +77,7 @@ class DampingTerm(NamedTuple):
         l_stable: whether the default kick takes it in, or the implicit-node one.
         couplings: c_ijk of the forces -c_ijk |nu_k| nu_j, shape (6, 6, 6).
         strips: cross-flow drag.
+        blends: damping that passes from linear to quadratic under way.
     """
 
     linear: Array
@@ -77,6 +86,7 @@ class DampingTerm(NamedTuple):
     l_stable: bool = True
     couplings: Array = NO_COUPLINGS
     strips: tuple[StripTerm, ...] = ()
+    blends: tuple[BlendTerm, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -85,6 +95,7 @@ class DampingTerm(NamedTuple):
             self._own_name,
             "damping couplings" if self.couplings.any() else "",
             "cross-flow drag" if self.strips else "",
+            "blended damping" if self.blends else "",
         ]
         return tuple(filter(None, names))
 
@@ -132,7 +143,12 @@ class DampingTerm(NamedTuple):
         if not self._is_coupled:
             return own
         present = [float(self.couplings[indices]) for indices in self._coupling_indices]
-        return CoupledDamping(own, nested(present), nested([strips.row for strips in self.strips]))
+        return CoupledDamping(
+            own,
+            nested(present),
+            nested([strips.row for strips in self.strips]),
+            nested([term.blend for term in self.blends]),
+        )
 
     @property
     def drag(self) -> tuple[ForceTerm, ...]:
@@ -149,7 +165,7 @@ class DampingTerm(NamedTuple):
 
     @property
     def _is_coupled(self) -> bool:
-        return bool(self.couplings.any()) or bool(self.strips)
+        return bool(self.couplings.any()) or bool(self.strips) or bool(self.blends)
 
     @property
     def _is_diagonal(self) -> bool:
@@ -167,7 +183,8 @@ class DampingTerm(NamedTuple):
             Coupling(*(ANGULAR_FIRST[index] for index in indices)) for indices in self._coupling_indices
         )
         shapes = (StripShape(strips.plane, strips.number) for strips in self.strips)
-        return DampingStructure(tuple(couplings), tuple(shapes))
+        axes = (ANGULAR_FIRST[term.axis] for term in self.blends)
+        return DampingStructure(tuple(couplings), tuple(shapes), tuple(axes))
 
     @property
     def _coupling_indices(self) -> list[tuple[int, int, int]]:
@@ -233,4 +250,5 @@ def vehicle_damping(vehicle: Vehicle, *, l_stable: bool = True) -> DampingTerm:
         l_stable,
         vehicle.damping_couplings,
         tuple(strips),
+        tuple(BlendTerm(blended.index, blended.blend) for blended in vehicle.damping.blended),
     )

@@ -23,6 +23,7 @@ def check_damping(vehicle: Vehicle) -> None:
     _check_dissipative(vehicle)
     _check_couplings(vehicle)
     _check_cross_flow(vehicle)
+    _check_blended(vehicle)
 
 
 def _check_dissipative(vehicle: Vehicle) -> None:
@@ -86,4 +87,28 @@ def _check_cross_flow(vehicle: Vehicle) -> None:
                 drag.center,
                 f"strips reach more than {STRIP_REACH:g} lengths of the vehicle, {reach:.3g} m, from the origin",
                 "give it in m from the body origin",
+            )
+
+
+def _check_blended(vehicle: Vehicle) -> None:
+    seen: set[str] = set()
+    for number, blended in enumerate(vehicle.damping.blended):
+        field = f"damping.blended.{number}"
+        if blended.axis in seen:
+            raise Implausible(
+                f"{field}.axis", blended.axis, "it is given twice", "write one entry for each axis"
+            )
+        seen.add(blended.axis)
+        if blended.linear == blended.quadratic == 0.0:
+            raise Implausible(
+                field, f"linear 0, quadratic 0 in {blended.axis}", "it does nothing", "leave it out"
+            )
+        fall = blended.falls_at()
+        if fall is not None:
+            raise Implausible(
+                field,
+                f"linear {blended.linear:g}, quadratic {blended.quadratic:g}, crossover {blended.crossover:g}",
+                f"the resistance in surge falls as the speed grows beyond {fall:.3g} m/s: there is more at rest than "
+                "under way",
+                "give a smaller linear damping, a larger quadratic one, or leave the linear one out",
             )

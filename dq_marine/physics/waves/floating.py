@@ -103,7 +103,7 @@ def long_wave_rao(
     restoring[2:5, 2:5] = stiffness
     if radiation is None:
         added = np.broadcast_to(vehicle.added_mass_matrix, (omega.size, 6, 6))
-        damping = np.broadcast_to(vehicle.linear_damping, (omega.size, 6, 6))
+        damping = np.broadcast_to(vehicle.damping_at_rest, (omega.size, 6, 6))
     else:
         added, damping = radiation.at(omega)
     pressed = water.plane(k, water.pressure, water.pressure)

@@ -54,7 +54,7 @@ def submerged_wave_term(sea: Sea, vehicle: Vehicle) -> ForceTerm:
     """
     mass = vehicle.buoyancy.water_density * vehicle.buoyancy.volume
     added = vehicle.added_mass_matrix
-    damping = vehicle.linear_damping
+    damping = vehicle.damping_at_rest
     centre = np.array(vehicle.buoyancy.center)
     places, shares = stations(sea, vehicle.dimensions.length)
     hull = SubmergedHull(

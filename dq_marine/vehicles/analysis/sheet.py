@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -13,6 +14,11 @@ from dq_marine.physics.hydrostatics.restoring import heave_period, natural_perio
 from dq_marine.vehicles.analysis.munk import munk_growth_rate
 from dq_marine.vehicles.coupling import asymmetry, largest_coupling, unit_free
 from dq_marine.vehicles.model import MOTIONS, Vehicle
+
+FASTEST = 1e6
+"""Speed [m/s, rad/s] beyond which drag is not looked for."""
+
+BISECTIONS = 60
 
 
 @dataclass(frozen=True)
@@ -116,7 +122,10 @@ def vehicle_sheet(vehicle: Vehicle, *, speed: float = 1.0) -> Sheet:
 
 
 def terminal_speed(vehicle: Vehicle, axis: int) -> float:
-    """Return v with d v + q v^2 = F, for one axis at its limit F with the others held [m/s, rad/s]."""
+    """Return the speed at which drag is the limit F, for one axis with the others held [m/s, rad/s].
+
+    In closed form, d v + q v^2 = F; by bisection where damping is blended.
+    """
     limit = float(vehicle.wrench_limits[axis])
     linear = float(vehicle.linear_damping[axis, axis])
     quadratic = float(vehicle.quadratic_damping[axis])
@@ -125,9 +134,29 @@ def terminal_speed(vehicle: Vehicle, axis: int) -> float:
     )
     if limit == 0.0:
         return 0.0
+    blends = [blended for blended in vehicle.damping.blended if blended.index == axis]
+
+    def drag_at(speed: float) -> float:
+        return linear * speed + quadratic * speed**2 + sum(blended.alone(speed) for blended in blends)
+
     # The root in the form that stands without a quadratic part.
     denominator = linear + math.sqrt(linear * linear + 4.0 * quadratic * limit)
-    return 2.0 * limit / denominator if denominator > 0.0 else math.inf
+    without_blends = 2.0 * limit / denominator if denominator > 0.0 else math.inf
+    return _first_speed_with(drag_at, limit, without_blends) if blends else without_blends
+
+
+def _first_speed_with(drag_at: Callable[[float], float], force: float, most: float) -> float:
+    """Return the speed at which a drag that grows with it is a force; most if it is never that large."""
+    high = min(1.0, most)
+    while drag_at(high) < force and high < FASTEST:
+        high *= 2.0
+    if drag_at(high) < force:
+        return most
+    low = 0.0
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if drag_at(middle) < force else (low, middle)
+    return high
 
 
 def _by_motion(values: list[float]) -> dict[str, float]:

@@ -5,6 +5,7 @@ import pytest
 from support.environments import StationKeepingEnv, StationKeepingVectorEnv
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.vehicles import Vehicle, load_vehicle
 
 
 def radii(env):
@@ -76,7 +77,11 @@ def test_a_vector_of_vessels_is_the_single_one():
 
 
 def test_vehicles_of_different_length_need_a_common_workspace():
+    supply = load_vehicle("supply_vessel")
+    longer = supply.model_dump()
+    longer["dimensions"]["length"] = 140.0
+    vessels = [supply, Vehicle.model_validate(longer)]
     with pytest.raises(InvalidInputError, match=r"vehicle\[1\].*radii"):
-        StationKeepingVectorEnv(2, vehicle=["supply_vessel", "tanker"])
-    envs = StationKeepingVectorEnv(2, vehicle=["supply_vessel", "tanker"], workspace_radius=500.0)
+        StationKeepingVectorEnv(2, vehicle=vessels)
+    envs = StationKeepingVectorEnv(2, vehicle=vessels, workspace_radius=500.0)
     assert envs.get_attr("start_radius") == (pytest.approx(110.4), pytest.approx(500.0 / 3.0))

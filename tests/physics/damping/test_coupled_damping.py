@@ -20,6 +20,7 @@ from dq_marine.simulation.batch import Batch
 SWAY_ROW = ("sway", (0.4, -0.7, 0.2, 6))
 HEAVE_ROW = ("heave", (0.3, -0.5, 0.3, 5))
 STRIPS = (SWAY_ROW, HEAVE_ROW)
+BLENDS = ((0, (4.0, 2.5, 2.0)), (5, (1.5, 0.0, 1.0)))
 QUADRATIC = np.array([3.0, 5.0, 4.0, 1.0, 2.0, 1.5])
 M = np.diag([19.86, 19.86, 19.86, 0.4, 0.4, 0.6])  # no Munk moment, whose h v limit large steps would break
 NOTHING = np.zeros((6, 6))
@@ -37,6 +38,9 @@ CASES = {
     "couplings and strips": {"couplings": lift(), "strips": STRIPS, "quadratic": QUADRATIC},
     "implicit node": {"couplings": lift(), "strips": STRIPS, "quadratic": QUADRATIC, "l_stable": False},
     "order 4": {"couplings": lift(), "strips": STRIPS, "quadratic": QUADRATIC, "order": 4},
+    "blends": {"couplings": lift(), "blends": BLENDS, "quadratic": QUADRATIC},
+    "blends, implicit node": {"blends": BLENDS, "quadratic": QUADRATIC, "l_stable": False},
+    "blends, order 4": {"blends": BLENDS, "quadratic": QUADRATIC, "order": 4},
 }
 
 
@@ -116,8 +120,9 @@ def test_lanes_have_the_bits_of_a_single_body(name):
     singles = []
     for _ in range(5):
         case = dict(CASES[name])
-        case["couplings"] = rng.uniform(0.5, 1.5) * case["couplings"]
-        case["strips"] = [(plane, (rng.uniform(), *row[1:])) for plane, row in case["strips"]]
+        case["couplings"] = rng.uniform(0.5, 1.5) * case.get("couplings", lift())
+        case["strips"] = [(plane, (rng.uniform(), *row[1:])) for plane, row in case.get("strips", STRIPS)]
+        case["blends"] = [(axis, tuple(rng.uniform(0.5, 2.0, 3))) for axis, _ in BLENDS]
         singles.append(make_body(random_inertia(rng), 0.02, linear=random_damping(rng, 0.2), **case))
     first = singles[0]
     batch = Batch(

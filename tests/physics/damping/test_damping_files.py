@@ -1,8 +1,8 @@
-"""Couplings and cross-flow drag in vehicle files: read, refused, and what follows for REMUS 100."""
+"""Couplings, cross-flow drag and blended damping in vehicle files: read, refused, and what follows for REMUS 100."""
 
 import numpy as np
 import pytest
-from support.fossen import coriolis, strip_drag
+from support.fossen import blended_drag, coriolis, strip_drag
 
 from dq_marine.errors import InvalidInputError, VehicleFileError
 from dq_marine.physics.damping.build import vehicle_damping
@@ -16,6 +16,7 @@ from dq_marine.vehicles.model import MOTIONS
 TEXT = (_FOLDER / "bluerov2_heavy.toml").read_text()
 COUPLING = '[[damping.couplings]]\nforce = "sway"\nspeed = "surge"\nvelocity = "sway"\ncoefficient = 28.6\n'
 STRIPS = '[[cross_flow]]\nplane = "sway"\nlength = 0.4\ndepth = 0.2\ndrag_coefficient = 0.9\n'
+BLEND = '[[damping.blended]]\naxis = "surge"\nlinear = 20.0\nquadratic = 150.0\ncrossover = 0.5\n'
 
 
 def extended(tmp_path, *tables):
@@ -88,7 +89,29 @@ def test_the_sheets_terminal_speed_knows_the_strips(tmp_path, axis):
     assert drag[axis] == pytest.approx(vehicle.wrench_limits[axis], rel=1e-12)
 
 
+def test_the_sheets_terminal_speed_knows_blends(tmp_path):
+    """In surge both parts count, in yaw the linear one: there is no way on."""
+    vehicle = load_vehicle(extended(tmp_path, BLEND + BLEND.replace("surge", "yaw").replace("150.0", "0.0")))
+    speeds = vehicle_sheet(vehicle).terminal_speed
+    for axis, quadratic in ((0, 150.0), (5, 0.0)):
+        nu = np.zeros(6)
+        nu[axis] = speeds[MOTIONS[axis]]
+        own = vehicle.linear_damping @ nu + vehicle.quadratic_damping * nu**2
+        drag = own + blended_drag(axis, 20.0, quadratic, 0.5, nu)
+        assert drag[axis] == pytest.approx(vehicle.wrench_limits[axis], rel=1e-12)
+    assert (
+        vehicle_sheet(vehicle).terminal_speed["sway"]
+        == vehicle_sheet(load_vehicle("bluerov2_heavy")).terminal_speed["sway"]
+    )
+    at_rest = np.diag(vehicle.damping_at_rest - vehicle.linear_damping)
+    assert at_rest == pytest.approx([20.0, 0.0, 0.0, 0.0, 0.0, 20.0], abs=1e-12)
+
+
 WRONG = {
+    "blend twice": (BLEND * 2, "damping.blended.1.axis", "one entry for each axis"),
+    "blend of nothing": (BLEND.replace("20.0", "0.0").replace("150.0", "0.0"), "damping.blended.0", "leave it out"),
+    "blend that falls": (BLEND.replace("20.0", "9e3"), "damping.blended.0", "a smaller linear damping"),
+    "blend without crossover": (BLEND.replace("0.5", "0.0"), "damping.blended.0.crossover", "greater than 0"),
     "unknown axis": (COUPLING.replace('"surge"', '"ahead"'), "damping.couplings.0.speed", "'surge'"),
     "no coefficient": (COUPLING.replace("coefficient = 28.6", ""), "damping.couplings.0.coefficient", "missing"),
     "not finite": (COUPLING.replace("28.6", "inf"), "damping.couplings.0.coefficient", "finite"),

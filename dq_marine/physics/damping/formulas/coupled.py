@@ -1,16 +1,16 @@
-"""Damping matrices with couplings and cross-flow drag.
+"""Damping matrices with couplings, cross-flow drag and blended damping.
 
-    D(chi) = linear + diag(quadratic |chi|) + sum c_ijk |chi_k| e_i e_j^T + cross-flow drag                 (D1)
+    D(chi) = linear + diag(quadratic |chi|) + sum c_ijk |chi_k| e_i e_j^T + cross-flow drag + blended       (D1)
 
 A coupling c_ijk is a force i by the velocity j that grows with the speed |chi_k|: drag that couples axes (k = j), lift
 of body and fins (k = surge). D need not be symmetric then. Cross-flow drag is that of
-`physics.damping.formulas.cross_flow`, in the plane of sway and yaw or of heave and pitch. The derivative of D(chi)
-chi has c_ijk |chi_k| in column j, and
+`physics.damping.formulas.cross_flow`, in the plane of sway and yaw or of heave and pitch; blended damping, on the
+diagonal, that of `physics.damping.formulas.blended`. The derivative of D(chi) chi has c_ijk |chi_k| in column j, and
 
     c_ijk sign(chi_k) chi_j   in column k                                                                   (D2)
 
-besides. Which couplings and strips there are is the `DampingStructure`; what is not in it is neither computed nor
-compiled. Indices count the angular part first: 0 to 2 roll, pitch, yaw, 3 to 5 surge, sway, heave.
+besides. Which couplings, strips and blends there are is the `DampingStructure`; what is not in it is neither computed
+nor compiled. Indices count the angular part first: 0 to 2 roll, pitch, yaw, 3 to 5 surge, sway, heave.
 """
 
 from __future__ import annotations
@@ -24,11 +24,20 @@ from dq_marine.algebra.nesting import folded
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.spatial import Matrix6, Spatial, matrix6_add_scaled, matrix6_transform
 from dq_marine.integrator.damping import DampingAlgebra
+from dq_marine.physics.damping.formulas.blended import (
+    Blend,
+    blended_damping,
+    blended_slope,
+    blended_turning,
+)
 from dq_marine.physics.damping.formulas.cross_flow import SumStrips, make_strip_sums
 from dq_marine.physics.damping.formulas.diagonal import FullDamping, full_at, full_sandwich, full_slope
 
 SWAY_PLANE, HEAVE_PLANE = (4, 2), (5, 1)
 """The velocity across the flow and the rate of turn of the two planes of cross-flow drag."""
+
+SURGE = 3
+"""The velocity that blended damping is weighed by."""
 
 
 class Coupling(NamedTuple):
@@ -47,10 +56,11 @@ class StripShape(NamedTuple):
 
 
 class DampingStructure(NamedTuple):
-    """What a damping matrix is made of, besides its linear part and its diagonal."""
+    """What a damping matrix is made of, besides its linear part and its diagonal; of blends, the axes."""
 
     couplings: tuple[Coupling, ...]
     strips: tuple[StripShape, ...]
+    blends: tuple[int, ...]
 
 
 class CoupledDamping(NamedTuple):
@@ -60,11 +70,13 @@ class CoupledDamping(NamedTuple):
         own: linear part and quadratic diagonal.
         couplings: c_ijk, nested in pairs (first, (second, (..., ()))) in the order of the structure.
         strips: a `StripRow` for each of the structure's, nested likewise.
+        blends: a `Blend` for each of the structure's, nested likewise.
     """
 
     own: FullDamping
     couplings: Any
     strips: Any
+    blends: Any
 
 
 AddToMatrix: TypeAlias = Callable[[Any, Spatial, Matrix6], Matrix6]
@@ -156,6 +168,32 @@ def make_strips(shape: StripShape, factor: float) -> AddToMatrix:
     return add_strips
 
 
+@functools.cache
+def make_blend(axis: int) -> AddToMatrix:
+    """Return (blend, twist, D) -> D with blended damping added to its diagonal."""
+    add_entry = make_entry_addition(axis, axis)
+    surge_of, velocity_of = make_component(SURGE), make_component(axis)
+
+    def add_blend(blend: Blend, twist: Spatial, matrix: Matrix6) -> Matrix6:
+        return add_entry(matrix, blended_damping(blend, surge_of(twist), velocity_of(twist)))
+
+    return add_blend
+
+
+@functools.cache
+def make_blend_slope(axis: int) -> AddToMatrix:
+    """Return (blend, twist, S) -> S with the derivative of blended damping added to its row (B2)."""
+    add_own, add_turning = make_entry_addition(axis, axis), make_entry_addition(axis, SURGE)
+    surge_of, velocity_of = make_component(SURGE), make_component(axis)
+
+    def add_blend_slope(blend: Blend, twist: Spatial, matrix: Matrix6) -> Matrix6:
+        surge, velocity = surge_of(twist), velocity_of(twist)
+        matrix = add_own(matrix, blended_slope(blend, surge, velocity))
+        return add_turning(matrix, blended_turning(blend, surge, velocity))
+
+    return add_blend_slope
+
+
 def add_nothing(parameters: Any, twist: Spatial, matrix: Matrix6) -> Matrix6:
     """Return the matrix as it is."""
     return matrix
@@ -180,14 +218,16 @@ def coupled_algebra(structure: DampingStructure) -> DampingAlgebra:
     add_coupling_slopes = join_additions(tuple(make_coupling_slope(c) for c in structure.couplings))
     add_strips = join_additions(tuple(make_strips(shape, 1.0) for shape in structure.strips))
     add_strip_slopes = join_additions(tuple(make_strips(shape, 2.0) for shape in structure.strips))
+    add_blends = join_additions(tuple(make_blend(axis) for axis in structure.blends))
+    add_blend_slopes = join_additions(tuple(make_blend_slope(axis) for axis in structure.blends))
 
     def coupled_at(damping: CoupledDamping, twist: Spatial) -> Matrix6:
         matrix = add_couplings(damping.couplings, twist, full_at(damping.own, twist))
-        return add_strips(damping.strips, twist, matrix)
+        return add_blends(damping.blends, twist, add_strips(damping.strips, twist, matrix))
 
     def coupled_slope(damping: CoupledDamping, twist: Spatial) -> Matrix6:
         matrix = add_coupling_slopes(damping.couplings, twist, full_slope(damping.own, twist))
-        return add_strip_slopes(damping.strips, twist, matrix)
+        return add_blend_slopes(damping.blends, twist, add_strip_slopes(damping.strips, twist, matrix))
 
     def coupled_growth(damping: CoupledDamping, s: float, before: Spatial, after: Spatial) -> Spatial:
         slow, fast = coupled_at(damping, before), coupled_at(damping, after)
