@@ -80,3 +80,7 @@ class StepNotSolvableError(DQMarineError, ArithmeticError):
 
 class UnsuitableVehicleWarning(UserWarning):
     """A task cannot be done with the vehicle that an environment is made with."""
+
+
+class BeyondValidityWarning(UserWarning):
+    """A vehicle is where the numbers of its file were not measured or computed for."""

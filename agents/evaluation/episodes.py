@@ -31,6 +31,7 @@ class Episode:
         ended_early: whether the episode was terminated, say beyond the workspace.
         seed: that it was reset with.
         track: where the vehicle was, if that was asked for.
+        notes: what a reader of the numbers should know.
     """
 
     time: Array
@@ -44,6 +45,7 @@ class Episode:
     ended_early: bool
     seed: int = 0
     track: Track | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def total_reward(self) -> float:
@@ -118,6 +120,8 @@ def fly_episode(
     followed = Track() if track else None
     if followed is not None:
         followed.add(inner)
+    validity = inner.flown_vehicle.validity
+    through_water = []
     terminated = truncated = False
     while not (terminated or truncated):
         action = agent.act(observation)
@@ -132,6 +136,8 @@ def fly_episode(
         rewards.append(float(reward))
         if followed is not None:
             followed.add(inner)
+        if validity is not None:
+            through_water.append(inner.velocity_through_water)
     metrics = metrics_of(inner.definition)
     held = np.array(actions, dtype=np.float64).reshape(len(actions), *(env.action_space.shape or ()))
     return Episode(
@@ -146,6 +152,7 @@ def fly_episode(
         ended_early=terminated,
         seed=seed,
         track=followed,
+        notes=validity.notes(np.array(through_water)) if validity is not None and through_water else (),
     )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from dq_marine.report.plan import Row
 from dq_marine.report.presentation import three_digits
-from dq_marine.report.showing.markdown_table import markdown_table
+from dq_marine.util.markdown_table import markdown_table
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -103,5 +103,7 @@ def fly(
         title=f"{run or baselines[0]}, seed {{seed}}",
     )
     console.print(episode_table(episode))
+    for note in episode.notes:
+        console.print(note, highlight=False, markup=False)
     for path in outputs.files:
         console.print(f"Wrote {path}", soft_wrap=True)

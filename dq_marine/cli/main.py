@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from dq_marine import __version__
-from dq_marine.cli import add, demo, evaluate, fly, report, sea, tasks, train
+from dq_marine.cli import add, demo, evaluate, fly, report, sea, tasks, train, validate
 from dq_marine.cli.common import HELP_OPTIONS, Commands, console
 from dq_marine.cli.manoeuvre import app as manoeuvre_app
 from dq_marine.cli.vehicles import app as vehicles_app
@@ -50,6 +50,7 @@ app.command(epilog=train.EXAMPLES)(train.train)
 app.command(epilog=tasks.EXAMPLES)(tasks.tasks)
 app.add_typer(vehicles_app, name="vehicles")
 app.add_typer(manoeuvre_app, name="manoeuvre")
+app.command(epilog=validate.EXAMPLES)(validate.validate)
 app.command(epilog=sea.EXAMPLES)(sea.sea)
 app.command(epilog=report.EXAMPLES)(report.report)
 app.command(epilog=add.EXAMPLES)(add.add)

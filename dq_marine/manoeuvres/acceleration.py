@@ -9,7 +9,7 @@ from dq_marine.manoeuvres.conditions import Conditions
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, over
 from dq_marine.manoeuvres.run import Run, Watch, unwatched
-from dq_marine.manoeuvres.series import tilt_notes
+from dq_marine.manoeuvres.run_notes import run_notes
 from dq_marine.manoeuvres.setup import prepared
 from dq_marine.vehicles import Vehicle
 
@@ -79,7 +79,7 @@ def acceleration(
         series=series,
         notes=(
             *(() if steady.settled else ("The speed was still changing at the end.",)),
-            *tilt_notes(series),
+            *run_notes(vehicle, series),
         ),
         top_speed=top,
         time_63=time_63,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,9 +11,6 @@ from numpy.typing import NDArray
 from dq_marine.algebra.attitude import attitude_angles
 
 Array = NDArray[np.float64]
-
-LARGEST_TILT = math.radians(60.0)
-"""Roll or pitch from which a run is no longer taken for one in the horizontal plane."""
 
 
 @dataclass(frozen=True)
@@ -118,15 +114,3 @@ def rotated(quaternions: Array, vectors: Array) -> Array:
 def wrapped(angle: Array) -> Array:
     """Return angles in -pi to pi [rad]."""
     return np.asarray(np.arctan2(np.sin(angle), np.cos(angle)))
-
-
-def tilt_notes(series: Series) -> tuple[str, ...]:
-    """Return what is to be said of a run that did not stay nearly level: headings and tracks are of level motion."""
-    largest = float(np.abs(series.euler[:, :2]).max())
-    if largest < LARGEST_TILT:
-        return ()
-    note = (
-        f"It rolled or pitched by up to {math.degrees(largest):.0f} deg, so that figures of the horizontal plane mean "
-        "little: nothing holds it level; try less throttle."
-    )
-    return (note,)

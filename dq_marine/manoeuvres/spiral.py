@@ -14,7 +14,7 @@ from dq_marine.manoeuvres.approach import approached
 from dq_marine.manoeuvres.conditions import Conditions, fraction
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees
 from dq_marine.manoeuvres.run import Run, Watch, unwatched
-from dq_marine.manoeuvres.series import tilt_notes
+from dq_marine.manoeuvres.run_notes import run_notes
 from dq_marine.manoeuvres.setup import prepared
 from dq_marine.vehicles import Vehicle
 
@@ -120,7 +120,7 @@ def spiral(
         settings=setup.settings | {"helm": helm, "helms": helms},
         step=setup.scene.step,
         series=series,
-        notes=(*start.notes, *_notes(points, width), *tilt_notes(series)),
+        notes=(*start.notes, *_notes(points, width), *run_notes(vehicle, series)),
         to_port=to_port,
         to_starboard=to_starboard,
         loop_width=width,

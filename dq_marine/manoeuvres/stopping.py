@@ -14,7 +14,7 @@ from dq_marine.manoeuvres.conditions import Conditions
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees, over
 from dq_marine.manoeuvres.run import Watch, unwatched
-from dq_marine.manoeuvres.series import tilt_notes
+from dq_marine.manoeuvres.run_notes import run_notes
 from dq_marine.manoeuvres.setup import prepared
 from dq_marine.vehicles import Vehicle
 
@@ -110,7 +110,7 @@ def stopping(
         notes=(
             *start.notes,
             *_notes(stopped, float(np.abs(series.heading_change).max()), float(time[-1])),
-            *tilt_notes(series),
+            *run_notes(vehicle, series),
         ),
         approach_speed=start.speed,
         stopping_time=stopped,

@@ -14,7 +14,8 @@ from dq_marine.manoeuvres.conditions import Conditions, fraction
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees, over
 from dq_marine.manoeuvres.run import Run, Watch, unwatched
-from dq_marine.manoeuvres.series import Series, tilt_notes
+from dq_marine.manoeuvres.run_notes import run_notes
+from dq_marine.manoeuvres.series import Series
 from dq_marine.manoeuvres.setup import prepared
 from dq_marine.manoeuvres.sides import Side, sign_of
 from dq_marine.vehicles import Vehicle
@@ -175,7 +176,7 @@ def turning_circle(
         settings=setup.settings | {"helm": helm, "side": side},
         step=setup.scene.step,
         series=series,
-        notes=(*start.notes, *_notes(steady, settled, series), *tilt_notes(series)),
+        notes=(*start.notes, *_notes(steady, settled, series), *run_notes(vehicle, series)),
         side=side,
         approach_speed=start.speed,
         advance=value_at(series.time, ahead, times[0]),

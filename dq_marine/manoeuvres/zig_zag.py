@@ -17,7 +17,8 @@ from dq_marine.manoeuvres.conditions import Conditions, fraction
 from dq_marine.manoeuvres.crossings import first_time_at, value_at
 from dq_marine.manoeuvres.quantities import Quantity, Result, degrees, over
 from dq_marine.manoeuvres.run import Watch, unwatched
-from dq_marine.manoeuvres.series import Series, tilt_notes
+from dq_marine.manoeuvres.run_notes import run_notes
+from dq_marine.manoeuvres.series import Series
 from dq_marine.manoeuvres.setup import prepared
 from dq_marine.manoeuvres.sides import Side, sign_of
 from dq_marine.vehicles import Vehicle
@@ -198,7 +199,7 @@ def zig_zag(
         settings=setup.settings | {"angle_deg": math.degrees(angle), "helm": helm, "side": side},
         step=setup.scene.step,
         series=series,
-        notes=(*start.notes, *_notes(swings, series), *tilt_notes(series)),
+        notes=(*start.notes, *_notes(swings, series), *run_notes(vehicle, series)),
         angle=angle,
         approach_speed=start.speed,
         initial_turning_time=swings[0].time if swings else None,

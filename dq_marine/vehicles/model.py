@@ -33,6 +33,7 @@ from dq_marine.physics.hydrostatics.tables import HullBox, Hydrostatics, Payload
 from dq_marine.physics.matrices import skew
 from dq_marine.physics.waves.radiation import RadiationTable
 from dq_marine.vehicles.checks.plausibility import check_vehicle
+from dq_marine.vehicles.validity import Validity
 
 
 class RigidBody(Table):
@@ -132,6 +133,7 @@ class Vehicle(Table):
         hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
         payloads: weights that act besides.
         radiation: added mass and damping by frequency, for the forces of seas; a file names a CSV file beside it.
+        validity: the motions and seas that the numbers hold for; None where it is not known.
         gravity: g [m/s^2], for weight and buoyancy, and for the lengths of waves; a stiffness in N/m holds for it.
     """
 
@@ -153,6 +155,7 @@ class Vehicle(Table):
     hull: tuple[HullBox, ...] = ()
     payloads: tuple[Payload, ...] = ()
     radiation: RadiationTable | None = None
+    validity: Validity | None = None
     gravity: float = GRAVITY
 
     @model_validator(mode="after")

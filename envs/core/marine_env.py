@@ -27,6 +27,7 @@ from dq_marine.envs.core.start import NO_UNIFORMS, as_chosen, drawn_uniforms
 from dq_marine.envs.core.view import EpisodeView, checked_render_mode
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.body import Motion
+from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import ACCEPTED, StepParameters
 from dq_marine.simulation.settings import Settings, SettingsKeywords, VehicleLike
 from dq_marine.task.action import ActuatedMemory
@@ -251,6 +252,12 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def velocity_body(self) -> NDArray[np.float64]:
         """Velocity over ground, Fossen's order [m/s, rad/s], shape (6,)."""
         return np.array(to_fossen(self.motion.velocity))
+
+    @property
+    def velocity_through_water(self) -> NDArray[np.float64]:
+        """Linear velocity relative to the water where the vehicle is, in the body frame [m/s], shape (3,)."""
+        inertia = self._parameters.inertia
+        return np.array(twist_from_momentum(inertia, self._running("velocity").body.momentum).linear)
 
     def get_state(self) -> dict[str, Any]:
         """Return all that the future depends on, the random generator included, for `set_state`.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dq_marine.checks import shown
-from dq_marine.errors import InvalidInputError
+from dq_marine.errors import BeyondValidityWarning, InvalidInputError
 from dq_marine.physics.term import ForceTerm
 from dq_marine.physics.waves.floating import Radiation, long_wave_rao, radiation_of
 from dq_marine.physics.waves.rao import ForceRAO
@@ -77,6 +78,7 @@ class WaveLoads:
     def terms(self, vehicle: Vehicle, current_ned: NDArray[np.float64]) -> tuple[ForceTerm, ...]:
         """Return the forces on a vehicle in a current [m/s], shape (3,); the current takes no part."""
         sea = self.sea.in_gravity(vehicle.gravity)
+        _warn_of_high_waves(sea, vehicle)
         if self.rao is not None:
             return (self.rao.term(sea),)
         own = vehicle.waterplane_stiffness if self.stiffness is None else _checked_stiffness(self.stiffness)
@@ -84,6 +86,17 @@ class WaveLoads:
             return submerged_terms(sea, vehicle)
         radiation = self.radiation or radiation_of(vehicle)
         return (long_wave_rao(sea, vehicle, own, radiation).term(sea),)
+
+
+def _warn_of_high_waves(sea: Sea, vehicle: Vehicle) -> None:
+    limit = None if vehicle.validity is None else vehicle.validity.wave_height
+    height = sea.spectrum.significant_height
+    if limit is not None and height > limit:
+        warnings.warn(
+            f"{vehicle.name} is in waves of {height:.3g} m; its numbers hold up to {limit:g} m",
+            BeyondValidityWarning,
+            stacklevel=2,
+        )
 
 
 def _checked_stiffness(stiffness: ArrayLike) -> NDArray[np.float64]:

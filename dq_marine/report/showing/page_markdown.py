@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dq_marine.report.presentation import Check, Table, by_verdict, tally
-from dq_marine.report.showing.markdown_table import markdown_table
 from dq_marine.report.showing.page import LEAD, TITLE, Chapter, Page
+from dq_marine.util.markdown_table import markdown_table
 
 FIGURES = "figures"
 

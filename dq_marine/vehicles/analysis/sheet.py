@@ -49,6 +49,7 @@ class Sheet:
             refused. Infinite without.
         translation_step: step [s] up to which translation at U is solved directly, h sigma = 2; larger steps are split.
             Infinite where nothing grows.
+        validity: limits of the motions and seas that the file's numbers hold for, each for reading; empty if unknown.
     """
 
     name: str
@@ -70,6 +71,7 @@ class Sheet:
     munk_growth_rate: float
     restoring_step: float
     translation_step: float
+    validity: tuple[str, ...] = ()
 
     @property
     def largest_step(self) -> float:
@@ -118,6 +120,7 @@ def vehicle_sheet(vehicle: Vehicle, *, speed: float = 1.0) -> Sheet:
         munk_growth_rate=growth,
         restoring_step=2.0 / fastest if fastest > 0.0 else math.inf,
         translation_step=2.0 / growth if growth > 0.0 else math.inf,
+        validity=() if vehicle.validity is None else vehicle.validity.limits(),
     )
 
 

@@ -7,6 +7,7 @@ import math
 import sys
 from pathlib import Path
 
+import gymnasium as gym
 import numpy as np
 import pytest
 
@@ -17,6 +18,7 @@ from dq_marine.agents.evaluation.trajectory import write_columns
 from dq_marine.algebra.attitude import attitude_angles
 from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.errors import InvalidInputError, MissingDependencyError
+from dq_marine.vehicles import Vehicle, load_vehicle
 
 NAMES = [
     *("time_s", "north_m", "east_m", "down_m", "q_scalar", "q_x", "q_y", "q_z"),
@@ -98,3 +100,11 @@ def test_wrong_paths_are_refused(episode: Episode, tmp_path: Path, monkeypatch: 
     with pytest.raises(MissingDependencyError, match=r'pip install "dq-marine\[parquet\]"'):
         write_columns(columns, tmp_path / "flight.parquet")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_flight_that_leaves_what_the_vehicles_numbers_hold_for_says_so() -> None:
+    content = load_vehicle("bluerov2_heavy").model_dump()
+    slow = Vehicle.model_validate(content | {"validity": {"speed": 0.01, "source": "a towing tank"}})
+    env = gym.make(DEFAULT_ENVIRONMENT.id, vehicle=slow, max_episode_steps=12)
+    (note,) = fly_episode(env, make_baseline("random", env, seed=3), seed=5).notes
+    assert "its numbers hold up to 0.01 m/s (a towing tank)" in note

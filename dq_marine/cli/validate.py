@@ -1,0 +1,111 @@
+"""The command `dq-marine validate`."""
+
+from __future__ import annotations
+
+import json as json_format
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.markup import escape
+
+from dq_marine.cli.common import console, error_console, examples
+
+if TYPE_CHECKING:
+    from dq_marine.validation import Comparison, References
+
+EXAMPLES = examples(
+    "dq-marine validate osv83",
+    "dq-marine validate --out validation",
+    "dq-marine validate my_ship.toml --references my_trials.toml",
+    "dq-marine validate otter --json",
+)
+
+
+def validate(
+    vehicles: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[VEHICLE]...",
+            help="Catalogue names, or with --references the path of one TOML file.",
+            show_default="all of the catalogue",
+        ),
+    ] = None,
+    references: Annotated[
+        Path | None,
+        typer.Option("--references", help="Trials of your own (TOML) that one vehicle is held against."),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder for a page with pictures; needs Matplotlib.")
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")] = False,
+) -> None:
+    """Hold vehicles against trials and against models that nobody here wrote: a verdict for each number.
+
+    Each vehicle does the trials of its references again: constant thrust, acceleration, turning circles, zig-zags, free
+    decays. A number agrees if it is as near to its reference as the file of references asks. The exit status is 1 if a
+    number differs and the file does not say why.
+
+    A file of your own has a table [[trial]] with name, manoeuvre ("steady", "acceleration", "turning-circle",
+    "zig-zag", "stopping" or "decay") and what that takes, and in it [[trial.expected]] with quantity, value and within,
+    or at_least and at_most, and source. Those of the catalogue, in dq_marine/validation/references, are examples.
+    """
+    from dq_marine.validation import Verdict
+
+    comparisons, silences = [], {}
+    for name, own in _chosen(vehicles or [], references):
+        comparisons.append(_compared(name, own))
+        silences[name] = own.silence
+        if not json:
+            _show(comparisons[-1], own.silence)
+    if json:
+        lines = {one.vehicle: [line.as_dict() for line in one.lines] for one in comparisons}
+        typer.echo(json_format.dumps(lines, indent=2, allow_nan=False))
+    if out is not None:
+        from dq_marine.report.machine import commit, versions
+        from dq_marine.validation.page import write_page
+
+        made_with = ", ".join(f"{library} {number}" for library, number in versions().items())
+        made_with += f", commit {found}" if (found := commit("dq_marine")) else ""
+        page = write_page(comparisons, silences, made_with, out)
+        error_console.print(f"Wrote {page}", soft_wrap=True, highlight=False)
+    if any(line.verdict is Verdict.DIFFERS for one in comparisons for line in one.lines):
+        raise typer.Exit(1)
+
+
+def _chosen(vehicles: list[str], references: Path | None) -> list[tuple[str, References]]:
+    """Return names of vehicles with their references."""
+    from dq_marine.errors import InvalidInputError
+    from dq_marine.validation import load_references, validated_vehicles
+
+    if references is None:
+        return [(name, load_references(name)) for name in vehicles or validated_vehicles()]
+    if len(vehicles) != 1:
+        raise InvalidInputError(
+            f"--references is of one vehicle, and {len(vehicles)} are given; give its name or file"
+        )
+    return [(vehicles[0], load_references(references))]
+
+
+def _compared(name: str, references: References) -> Comparison:
+    from dq_marine.validation import compared
+    from dq_marine.vehicles import load_vehicle
+
+    vehicle = load_vehicle(name)
+    title = escape(vehicle.name)
+    with error_console.status(title) as status:
+        return compared(
+            Path(name).stem,
+            vehicle,
+            references.trial,
+            lambda phase, time: status.update(f"{title}: {escape(phase)}, {time:.4g} s"),
+        )
+
+
+def _show(comparison: Comparison, silence: str) -> None:
+    from dq_marine.cli.validation_table import comparison_table
+
+    if comparison.lines:
+        console.print(comparison_table(comparison))
+    if silence:
+        console.print(f"{comparison.title}: {silence}", highlight=False, markup=False)
