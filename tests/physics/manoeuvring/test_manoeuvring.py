@@ -122,6 +122,27 @@ def test_kvlcc2_turns_like_that_of_shipmmg(side):
     assert figures(turned(ship("gaussian"), side)) == pytest.approx(SHIPMMG[side], rel=0.03)
 
 
+# First and second overshoot of the same ship by shipmmg, rtol 1e-9 [degrees]: side, angle.
+OVERSHOOTS = {(1, 20): (10.48, 15.11), (-1, 20): (13.52, 11.65), (1, 10): (4.893, 13.07)}
+
+
+@pytest.mark.parametrize(("side", "angle"), OVERSHOOTS)
+def test_kvlcc2_overshoots_like_that_of_shipmmg(side, angle):
+    body = Scene(ship("gaussian"), step=0.02, actuation="thrusters").stepper()
+    moving(body)
+    helm, reached, found = side, False, []
+    while len(found) < 2 and body.time < 100.0:
+        body.actuate((SHAFT, helm * math.radians(angle)))
+        w, _, _, z = body.quaternion_body_to_ned
+        heading = math.degrees(2.0 * math.atan2(z, w))
+        if helm * heading >= angle:
+            helm, reached = -helm, True
+        if reached and helm * body.velocity_body[5] > 0.0:
+            found.append(abs(heading) - angle)
+            reached = False
+    assert found == pytest.approx(OVERSHOOTS[side, angle], rel=0.03)
+
+
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_equations_written_apart_are_those_of_shipmmg(side):
     """With its point of reference, to its printed digits: the reference of these tests is one that others share."""
