@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres.actuator_steering import ActuatorSteering
 from dq_marine.manoeuvres.conditions import Conditions
+from dq_marine.manoeuvres.rudder_steering import RudderSteering
 from dq_marine.manoeuvres.steering import SURGE, Steering, WrenchSteering
 from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import Vehicle, vehicle_sheet
@@ -89,8 +90,20 @@ def prepared(vehicle: Vehicle, conditions: Conditions) -> Setup:
     actuation = conditions.actuation or ("thrusters" if vehicle.channels else "wrench")
     step, samples = sampling(vehicle, speed, conditions.step)
     scene = Scene(vehicle, step=step, actuation=actuation)
-    steering = WrenchSteering(vehicle) if actuation == "wrench" else ActuatorSteering(vehicle, speed)
-    return Setup(scene, conditions, steering, speed, samples)
+    return Setup(scene, conditions, steering_of(vehicle, actuation, speed), speed, samples)
+
+
+def steering_of(vehicle: Vehicle, actuation: str, speed: float) -> Steering:
+    """Return what carries out throttle and helm, with scales made for a speed [m/s].
+
+    Raises:
+        InvalidInputError: the vehicle cannot be driven ahead or turned so.
+    """
+    if actuation == "wrench":
+        return WrenchSteering(vehicle)
+    if vehicle.manoeuvring is not None:
+        return RudderSteering(vehicle.manoeuvring, vehicle.buoyancy.water_density)
+    return ActuatorSteering(vehicle, speed)
 
 
 def full_speed(vehicle: Vehicle) -> float:

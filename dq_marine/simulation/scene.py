@@ -23,6 +23,7 @@ from dq_marine.physics.current.build import (
 )
 from dq_marine.physics.damping.build import vehicle_damping
 from dq_marine.physics.hydrostatics.build import hydrostatic_terms, natural_frequencies
+from dq_marine.physics.manoeuvring.build import manoeuvring_terms
 from dq_marine.physics.term import ForceTerm, checked_forces
 from dq_marine.physics.weather import weather_terms
 from dq_marine.physics.weather.choice import Weather
@@ -123,7 +124,7 @@ class Scene:
         damping = vehicle_damping(self.vehicle, l_stable=self.kick == "l_stable")
         restoring = hydrostatic_terms(self.vehicle, self.hydrostatics)
         of_weather = checked_forces(weather_terms(self.weather, self.vehicle, self.current_ned))
-        present = (*restoring, *of_weather, *self.forces)
+        present = (*restoring, *manoeuvring_terms(self.vehicle), *of_weather, *self.forces)
         actuators = actuation_term(self.vehicle) if self.actuation == "thrusters" else None
         water = self.current.term(self.vehicle)
         self._assembly = Assembly(

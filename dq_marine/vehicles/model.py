@@ -30,6 +30,7 @@ from dq_marine.physics.fields import (
 )
 from dq_marine.physics.gravity import checked_gravity
 from dq_marine.physics.hydrostatics.tables import HullBox, Hydrostatics, Payload
+from dq_marine.physics.manoeuvring.tables import Manoeuvring
 from dq_marine.physics.matrices import skew
 from dq_marine.physics.waves.radiation import RadiationTable
 from dq_marine.vehicles.checks.plausibility import check_vehicle
@@ -129,6 +130,7 @@ class Vehicle(Table):
         thrusters: propellers on fixed axes.
         azimuths: propellers whose axes turn.
         fins: rudders and planes.
+        manoeuvring: the MMG model of a ship: its hull, and its propeller and rudder as one actuator.
         hydrostatics: of a vessel that floats; None for one that is under water altogether.
         hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
         payloads: weights that act besides.
@@ -151,6 +153,7 @@ class Vehicle(Table):
     thrusters: tuple[Thruster, ...] = ()
     azimuths: tuple[Azimuth, ...] = ()
     fins: tuple[Fin, ...] = ()
+    manoeuvring: Manoeuvring | None = None
     hydrostatics: Hydrostatics | None = None
     hull: tuple[HullBox, ...] = ()
     payloads: tuple[Payload, ...] = ()
@@ -281,11 +284,11 @@ class Vehicle(Table):
     def actuators(self) -> ActuatorSet:
         """The actuators whose forces are known: without thrusters that are for drawing only."""
         driven = tuple(thruster for thruster in self.thrusters if thruster.driven)
-        return ActuatorSet(driven, self.azimuths, self.fins)
+        return ActuatorSet(driven, self.azimuths, self.fins, self.manoeuvring)
 
     @property
     def channels(self) -> tuple[ChannelSheet, ...]:
-        """Channels that take commands, in the order of the commands: thrusters, azimuths (speed, angle), fins."""
+        """Channels that take commands, in the order of `ActuatorSet.channels`."""
         return self.actuators.channels
 
     @property

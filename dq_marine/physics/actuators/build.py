@@ -30,6 +30,7 @@ from dq_marine.physics.actuators.formulas.effects import (
     FIXED_THRUSTER,
     THRUSTER_IN_FLOW,
     AzimuthThruster,
+    EffectKind,
     FixedThruster,
     Propeller,
     ThrusterInFlow,
@@ -37,6 +38,8 @@ from dq_marine.physics.actuators.formulas.effects import (
 from dq_marine.physics.actuators.formulas.effects import Fin as FinEffect
 from dq_marine.physics.actuators.formulas.force import ActuatorKind, Actuators, Transient, make_actuation
 from dq_marine.physics.actuators.tables import Azimuth, Fin, Propulsion, Thruster
+from dq_marine.physics.manoeuvring.build import stern_term
+from dq_marine.physics.manoeuvring.tables import Manoeuvring
 from dq_marine.physics.term import ForceTerm
 
 if TYPE_CHECKING:
@@ -90,6 +93,8 @@ def actuation_term(vehicle: Vehicle) -> ActuationTerm:
         *map(_azimuth, actuators.azimuths),
         *map(_fin, actuators.fins),
     ]
+    if actuators.manoeuvring is not None:
+        parts.append(_stern(actuators.manoeuvring, vehicle.buoyancy.water_density))
     if not parts:
         raise InvalidInputError(
             f"vehicle {vehicle.name!r} has no actuators whose force is known; add thrust_forward and thrust_reverse "
@@ -136,6 +141,21 @@ def _fin(fin: Fin) -> ActuatorPart:
     deflection = _channel(fin.limit, fin.time_constant, None if rate is None else math.radians(rate))
     kind = ActuatorKind(FIN, (deflection.kind,))
     return ActuatorPart(kind, FinEffect(from_fossen(fin.coefficients)), (deflection.numbers,))
+
+
+def _stern(tables: Manoeuvring, density: float) -> ActuatorPart:
+    """Return propeller and rudder of the MMG model: one actuator, as the rudder lies in the race."""
+    term, propeller, rudder = stern_term(tables, density), tables.propeller, tables.rudder
+    follow, dynamics = _following(propeller.time_constant, propeller.rate_limit)
+    shaft = ChannelPart(
+        ChannelKind(limited_target, follow), Channel(0.0, propeller.speed_limit, 0.0, dynamics)
+    )
+    rate = rudder.rate_limit_deg_s
+    angle = _channel(rudder.limit, rudder.time_constant, None if rate is None else math.radians(rate))
+    effect = EffectKind(term.wrench, channels=2, uses_velocity=True)
+    return ActuatorPart(
+        ActuatorKind(effect, (shaft.kind, angle.kind)), term.numbers, (shaft.numbers, angle.numbers)
+    )
 
 
 def _shaft(propulsion: Propulsion) -> ChannelPart:

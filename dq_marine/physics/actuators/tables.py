@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from dq_marine.physics.fields import NonNegative, Positive, Table, Vector3, Vector6
+from dq_marine.physics.manoeuvring.tables import Manoeuvring
 
 Degrees = Annotated[float, Field(gt=0.0, le=90.0)]
 
@@ -209,11 +210,15 @@ class Fin(Table):
 
 
 class ActuatorSet(NamedTuple):
-    """A vehicle's actuators whose forces are known, in the order of their channels."""
+    """A vehicle's actuators whose forces are known, in the order of their channels.
+
+    The last are the propeller and rudder of an MMG model, which make one actuator: the rudder lies in the race.
+    """
 
     thrusters: tuple[Thruster, ...]
     azimuths: tuple[Azimuth, ...]
     fins: tuple[Fin, ...]
+    manoeuvring: Manoeuvring | None = None
 
     @property
     def thrust_matrix(self) -> NDArray[np.float64]:
@@ -234,7 +239,7 @@ class ActuatorSet(NamedTuple):
 
     @property
     def channels(self) -> tuple[ChannelSheet, ...]:
-        """Channels of all actuators; an azimuth has its shaft's speed and its angle."""
+        """Channels of all actuators; an azimuth has its shaft's speed and its angle, an MMG stern likewise."""
         sheets = [
             ChannelSheet(thruster.name or f"thruster {i}", thruster.unit, thruster.low, thruster.high)
             for i, thruster in enumerate(self.thrusters)
@@ -245,4 +250,8 @@ class ActuatorSet(NamedTuple):
             sheets.append(ChannelSheet(f"{name} angle", "rad", -azimuth.angle_limit, azimuth.angle_limit))
         for i, fin in enumerate(self.fins):
             sheets.append(ChannelSheet(fin.name or f"fin {i}", "rad", -fin.limit, fin.limit))
+        if self.manoeuvring is not None:
+            rudder = self.manoeuvring.rudder
+            sheets.append(ChannelSheet("propeller", "rad/s", 0.0, self.manoeuvring.propeller.speed_limit))
+            sheets.append(ChannelSheet("rudder", "rad", -rudder.limit, rudder.limit))
         return tuple(sheets)

@@ -11,6 +11,7 @@ import numpy as np
 
 from dq_marine.checks import finite_number
 from dq_marine.physics.hydrostatics.restoring import heave_period, natural_periods, restoring_frequencies
+from dq_marine.physics.manoeuvring.build import own_axis_drag
 from dq_marine.vehicles.analysis.munk import munk_growth_rate
 from dq_marine.vehicles.coupling import asymmetry, largest_coupling, unit_free
 from dq_marine.vehicles.model import MOTIONS, Vehicle
@@ -131,7 +132,7 @@ def terminal_speed(vehicle: Vehicle, axis: int) -> float:
     """
     limit = float(vehicle.wrench_limits[axis])
     linear = float(vehicle.linear_damping[axis, axis])
-    quadratic = float(vehicle.quadratic_damping[axis])
+    quadratic = float(vehicle.quadratic_damping[axis]) + own_axis_drag(vehicle, axis)
     quadratic += sum(
         float(drag.own_axis_coefficients(vehicle.buoyancy.water_density)[axis]) for drag in vehicle.cross_flow
     )

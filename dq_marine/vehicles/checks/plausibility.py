@@ -15,6 +15,7 @@ from dq_marine.physics.damping.checks import check_damping
 from dq_marine.physics.hydrostatics.checks import check_floating
 from dq_marine.physics.implausible import Implausible as Implausible
 from dq_marine.physics.implausible import check_gravity, check_water_density
+from dq_marine.physics.manoeuvring.checks import check_manoeuvring
 from dq_marine.vehicles.coupling import asymmetry
 
 if TYPE_CHECKING:
@@ -48,6 +49,7 @@ def check_vehicle(vehicle: Vehicle) -> None:
     _check_limits(vehicle)
     _check_thrusters(vehicle)
     check_floating(vehicle)
+    check_manoeuvring(vehicle)
     _check_actuator_size(vehicle)
 
 

@@ -1,0 +1,1 @@
+"""Manoeuvring of ships by the MMG model: hull, propeller and rudder."""
