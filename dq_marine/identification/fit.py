@@ -10,7 +10,14 @@ from numpy.typing import NDArray
 
 from dq_marine.checks import finite_array, finite_number
 from dq_marine.errors import InvalidInputError
-from dq_marine.identification.identifiability import Held, correlated, covariance, told
+from dq_marine.identification.identifiability import (
+    LARGEST_SHARE,
+    Held,
+    correlated,
+    covariance,
+    standard_errors,
+    told,
+)
 from dq_marine.identification.lanes import SegmentedLog
 from dq_marine.identification.log import Log
 from dq_marine.identification.parameters import (
@@ -33,7 +40,7 @@ MOST_ROUNDS = 8
 MOST_EVALUATIONS = 12
 """In a round."""
 
-SETTLED = 0.05
+SETTLED = 0.1
 """A round that moves no parameter by more than this share of its standard error is the last."""
 
 SEGMENTS = 30
@@ -141,27 +148,33 @@ def fit_vehicle(
     problem = Problem(log, vehicle, parameters, segments)
     free, theta, held = list(range(len(parameters))), np.zeros(len(parameters)), list[Held]()
     watch("compiling, and asking what the log can tell")
+    problem.take_starts(problem.evaluate(theta, free))
     evaluation = problem.evaluate(theta, free)
+    shares = problem.shares_of_noise(theta, free, evaluation)
+    settled = False
     for number in range(1, MOST_ROUNDS + 1):
-        free, lost = told(evaluation.jacobian, free, bound)
+        free, lost = told(evaluation.jacobian, shares, free, bound)
         held += lost
         known = None if lost else evaluation
         _check_something_left(free, parameters, held)
         theta[[one.place for one in held]] = 0.0
         before = theta.copy()
         theta, evaluation = _solved(problem, theta, free, known, watch, number)
-        problem.take(evaluation)
+        problem.take_starts(evaluation)
+        problem.take_noise(evaluation)
         evaluation = problem.evaluate(theta, free)
-        errors = np.sqrt(np.diag(covariance(evaluation.jacobian)))
-        settled = (np.abs(theta - before)[free] <= SETTLED * errors).all()
-        if settled and errors.max() <= bound:
+        shares = problem.shares_of_noise(theta, free, evaluation)
+        errors = standard_errors(evaluation.jacobian)
+        all_told = errors.max() <= bound and shares.max() <= LARGEST_SHARE
+        settled = bool(all_told and (np.abs(theta - before)[free] <= SETTLED * errors).all())
+        if settled:
             break
     if evaluation.refused:
         raise InvalidInputError(
             f"{evaluation.refused} segments of {log.name} cannot be simulated with the numbers found; give a smaller "
             "step, or fit fewer groups"
         )
-    return _result(problem, log, segments, parameters, theta, free, held, evaluation)
+    return _result(problem, log, segments, parameters, theta, free, held, evaluation, settled)
 
 
 def _parameters(vehicle: Vehicle, log: Log, conditions: Conditions) -> tuple[Parameter, ...]:
@@ -226,10 +239,9 @@ def _solved(
             last.clear()
             last[part.tobytes()] = problem.evaluate(whole(part), free)
             count += 1
-            found = last[part.tobytes()].residual
-            watch(
-                f"simulation {count}: {np.sqrt((found**2).sum() / problem.readings.sum()):.4g} times the noise"
-            )
+            squares = float((last[part.tobytes()].residual ** 2).sum())
+            rms = np.sqrt(squares / problem.readings.sum())
+            watch(f"round {number}, simulation {count}: {rms:.4g} times the noise")
         return last[part.tobytes()]
 
     def residual(part: Array) -> Array:
@@ -259,6 +271,7 @@ def _result(
     free: Sequence[int],
     held: Sequence[Held],
     evaluation: Evaluation,
+    settled: bool,
 ) -> Fit:
     kept = [parameters[index] for index in free]
     residuals = np.where(problem.missing, np.nan, evaluation.residual * problem.noise)
@@ -268,6 +281,11 @@ def _result(
     before, after = quantities_of(problem.vehicle_at(0.0 * theta), kept), quantities_of(vehicle, kept)
     slopes = np.array([_slopes(problem, kept, theta, index, after) for index in free]).T
     errors = np.sqrt(np.diag(slopes @ spread @ slopes.T))
+    notes = _notes(problem, kept, theta[list(free)], held, spread, colour)
+    if not settled:
+        notes += (
+            f"The numbers still moved after {MOST_ROUNDS} rounds: do not trust them; fit fewer groups.",
+        )
     estimates = tuple(
         Estimate(new.label, new.unit, old.value, new.value, float(error))
         for old, new, error in zip(before, after, errors, strict=True)
@@ -277,7 +295,7 @@ def _result(
         vehicle,
         estimates,
         tuple((parameters[one.place].label, one.standard_error) for one in held),
-        _notes(problem, kept, theta[list(free)], held, spread, colour),
+        notes,
         log.name,
         log.duration,
         segments.count,

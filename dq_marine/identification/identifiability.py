@@ -13,6 +13,10 @@ HIGH_CORRELATION = 0.95
 """Of two estimates, from which they are named: the log tells their combination better than each."""
 
 
+LARGEST_SHARE = 0.5
+"""Of what a log feels of a parameter: from a larger share of noise on, it is the noise that would be fitted."""
+
+
 class Held(NamedTuple):
     """A parameter that is held at its nominal value.
 
@@ -28,7 +32,7 @@ class Held(NamedTuple):
 def covariance(jacobian: Array) -> Array:
     """Return the inverse of J^T J, for residuals over their noise; enormous along what the log does not feel."""
     scale = np.linalg.norm(jacobian, axis=0)
-    scale = np.where(scale > 0.0, scale, 1e-150)
+    scale = np.where(scale > 0.0, scale, 1e-100)
     _, singular, rotation = np.linalg.svd(jacobian / scale, full_matrices=False)
     half = rotation.T / np.maximum(singular, 1e-13)
     return np.asarray((half @ half.T) / np.outer(scale, scale))
@@ -39,17 +43,19 @@ def standard_errors(jacobian: Array) -> Array:
     return np.asarray(np.sqrt(np.diag(covariance(jacobian))))
 
 
-def told(jacobian: Array, free: list[int], bound: float) -> tuple[list[int], list[Held]]:
+def told(jacobian: Array, shares: Array, free: list[int], bound: float) -> tuple[list[int], list[Held]]:
     """Return the parameters that can be told, and those that are held, the least certain first.
 
     One is held after the other, because those that only go together become certain once one of them is held.
 
     Args:
         jacobian: of residuals over their noise, a column for each free parameter.
+        shares: of each column, what comes from noise; see `Problem.shares_of_noise`.
         free: the parameters of its columns.
         bound: largest standard error of theta.
     """
-    left, held = list(range(len(free))), []
+    left = np.flatnonzero(shares <= LARGEST_SHARE).tolist()
+    held = [Held(free[column], np.inf) for column in np.flatnonzero(shares > LARGEST_SHARE).tolist()]
     while left:
         errors = standard_errors(jacobian[:, left])
         worst = int(errors.argmax())

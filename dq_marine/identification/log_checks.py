@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 FEWEST_ROWS = 100
 LARGEST_GAP = 1.5
-"""Over the median time between rows."""
+"""Over the mean time between rows."""
 
 SMALLEST_GAP = 0.5
 FASTEST = 60.0
@@ -55,7 +55,7 @@ def _check_time(log: Log) -> None:
         ratio = gaps[row] / log.period
         if (ratio > bad) == (bad > 1.0) and ratio != bad:
             raise InvalidInputError(
-                f"{log.name}, line {row + 3}: {gaps[row]:.4g} s since the row before, but the median is "
+                f"{log.name}, line {row + 3}: {gaps[row]:.4g} s since the row before, but the mean is "
                 f"{log.period:.4g} s; give rows at even times, or the longest part without a gap"
             )
 

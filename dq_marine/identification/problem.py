@@ -31,6 +31,9 @@ OUTPUTS = (
 DIFFERENCE = 1e-5
 """Of theta and of starts, for derivatives."""
 
+SEED = 0
+"""Of the starts that are drawn as uncertain as the estimated ones."""
+
 FAR = 1e6
 """Residual, over the noise, of a vehicle that cannot be simulated: so large that it is never taken."""
 
@@ -42,12 +45,14 @@ class Evaluation(NamedTuple):
         residual: with the best starts to first order, over the noise, shape (rows, 12); 0 where nothing was measured.
         jacobian: its derivative by the free parameters, shape (12 rows, free).
         change: of the starts, to their best, shape (segments, 12).
+        drawn: changes of the starts as uncertain as theirs, drawn from a fixed seed, shape (segments, 12).
         refused: segments that could not be simulated to their end.
     """
 
     residual: Array
     jacobian: Array
     change: Array
+    drawn: Array
     refused: int
 
 
@@ -98,33 +103,49 @@ class Problem:
         """Return the vehicle at a theta of all parameters."""
         return vehicle_with(self._vehicle, self._parameters, theta)
 
-    def evaluate(self, theta: Array, free: Sequence[int]) -> Evaluation:
+    def evaluate(self, theta: Array, free: Sequence[int], away: Array | None = None) -> Evaluation:
         """Simulate and compare.
 
         Args:
             theta: of all parameters.
             free: those by which derivatives are taken.
+            away: change of the starts for this time, shape (segments, 12).
         """
-        away = np.where(theta > LARGEST_THETA - 1.0, -DIFFERENCE, DIFFERENCE)
+        begin = self.starts if away is None else moved(self.starts, away)
+        steps = np.where(theta > LARGEST_THETA - 1.0, -DIFFERENCE, DIFFERENCE)
         try:
-            varied = [self.vehicle_at(theta + away * np.eye(len(theta))[index]) for index in free]
+            varied = [self.vehicle_at(theta + steps * np.eye(len(theta))[index]) for index in free]
             vehicles = [self.vehicle_at(theta)] * (1 + len(self._start_axes)) + varied
         except ValidationError:
             residual = np.where(self.missing, 0.0, FAR)
             blank = np.zeros((residual.size, len(free)))
-            return Evaluation(residual, blank, np.zeros((self._segments.count, AXES)), self._segments.count)
-        shifted = [moved(self.starts, DIFFERENCE * np.eye(AXES)[axis]) for axis in self._start_axes]
-        starts = [self.starts, *shifted, *[self.starts] * len(varied)]
+            still = np.zeros((self._segments.count, AXES))
+            return Evaluation(residual, blank, still, still, self._segments.count)
+        shifted = [moved(begin, DIFFERENCE * np.eye(AXES)[axis]) for axis in self._start_axes]
+        starts = [begin, *shifted, *[begin] * len(varied)]
         motions, refused = self._segments.simulate(vehicles, starts)
         residuals = self._residuals(motions)
         slopes = (residuals[1:] - residuals[:1]) / DIFFERENCE
         by_start, by_theta = np.split(slopes, [len(self._start_axes)])
-        by_theta = by_theta * np.sign(away[list(free)])[:, None, None]
+        by_theta = by_theta * np.sign(steps[list(free)])[:, None, None]
         return Evaluation(*self._without_starts(residuals[0], by_start, by_theta), refused)
 
-    def take(self, evaluation: Evaluation) -> None:
-        """Start from better states from now on, and weigh outputs by what they differ by."""
+    def shares_of_noise(self, theta: Array, free: Sequence[int], evaluation: Evaluation) -> Array:
+        """Return how much of what the log feels of each free parameter comes from noise in the starts: 0 to about 1.
+
+        A start that is at rest in truth moves a little as it is estimated, and a simulation from there depends on
+        parameters of a motion that never was. Other starts, drawn as uncertain, tell how much.
+        """
+        other = self.evaluate(theta, free, evaluation.drawn).jacobian
+        felt = np.linalg.norm(evaluation.jacobian, axis=0)
+        return np.asarray(np.linalg.norm(other - evaluation.jacobian, axis=0) / np.maximum(felt, 1e-100))
+
+    def take_starts(self, evaluation: Evaluation) -> None:
+        """Start from the best states from now on."""
         self.starts = moved(self.starts, evaluation.change)
+
+    def take_noise(self, evaluation: Evaluation) -> None:
+        """Weigh outputs by what they differ by from now on."""
         squares = (evaluation.residual**2).sum(axis=0) / np.maximum(self.readings, 1)
         readings = int(self.readings.sum())
         lost = readings / max(readings - self.fitted_numbers - len(self._parameters), 1)
@@ -143,9 +164,10 @@ class Problem:
 
     def _without_starts(
         self, residual: Array, by_start: Array, by_theta: Array
-    ) -> tuple[Array, Array, Array]:
+    ) -> tuple[Array, Array, Array, Array]:
         left, slopes = np.empty_like(residual), np.empty((residual.size, len(by_theta)))
-        change = np.zeros((self._segments.count, AXES))
+        change, drawn = np.zeros((2, self._segments.count, AXES))
+        draw = np.random.default_rng(SEED)
         for segment in range(self._segments.count):
             rows = np.flatnonzero(self._segments.segment == segment)
             own = residual[rows].ravel()
@@ -155,11 +177,12 @@ class Problem:
             kept = singular > 1e-8 * singular[0]
             basis, toward = basis[:, kept], rotation[kept].T / singular[kept]
             change[segment, self._start_axes] = -(toward @ (basis.T @ own)) / scale
+            drawn[segment, self._start_axes] = (toward @ draw.normal(size=basis.shape[1])) / scale
             left[rows] = (own - basis @ (basis.T @ own)).reshape(len(rows), -1)
             of_theta = by_theta[:, rows].reshape(len(by_theta), -1).T
             places = (rows[:, None] * residual.shape[1] + np.arange(residual.shape[1])).ravel()
             slopes[places] = of_theta - basis @ (basis.T @ of_theta)
-        return left, slopes, change
+        return left, slopes, change, drawn
 
     def _noise_of_readings(self) -> Array:
         """Return the noise that third differences of the readings show: motion hardly has any."""

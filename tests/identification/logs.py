@@ -1,4 +1,4 @@
-"""Simulated logs: a vehicle under random wrenches, seen by sensors with the noise of a DVL, an AHRS and a depth meter."""
+"""Simulated logs: a vehicle under random wrenches, seen with the noise of a DVL, an AHRS and a depth meter."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ PERIOD = 0.1
 GROUPS = ("added_mass", "linear", "quadratic")
 NOISE = {"depth_m": 0.02, "deg": 0.3, "m_s": 0.01, "rad_s": 0.005}
 COLUMNS = (
-    "time_s,depth_m,roll_deg,pitch_deg,heading_deg,u_m_s,v_m_s,w_m_s,p_rad_s,q_rad_s,r_rad_s,"
-    "X_N,Y_N,Z_N,K_N_m,M_N_m,N_N_m"
-).split(",")
+    *("time_s", "depth_m", "roll_deg", "pitch_deg", "heading_deg"),
+    *("u_m_s", "v_m_s", "w_m_s", "p_rad_s", "q_rad_s", "r_rad_s"),
+    *("X_N", "Y_N", "Z_N", "K_N_m", "M_N_m", "N_N_m"),
+)
 LARGEST = np.array([40.0, 40.0, 30.0, 2.0, 2.0, 5.0])
 
 
@@ -36,7 +37,9 @@ def changed(vehicle: Vehicle, groups: tuple[str, ...], seed: int, spread: float 
 
 
 @functools.cache
-def rov_log(seed: int, seconds: float, axes: tuple[int, ...] = tuple(range(6))) -> tuple[tuple[float, ...], ...]:
+def rov_log(
+    seed: int, seconds: float, axes: tuple[int, ...] = tuple(range(6))
+) -> tuple[tuple[float, ...], ...]:
     """Return the rows of a changed BlueROV2 Heavy that is driven in some axes, another wrench every two seconds."""
     rng = np.random.default_rng(seed)
     body = Scene(changed(load_vehicle("bluerov2_heavy"), GROUPS, seed), step=STEP).stepper()
@@ -56,7 +59,7 @@ def rov_log(seed: int, seconds: float, axes: tuple[int, ...] = tuple(range(6))) 
     return tuple(rows)
 
 
-def written(path: Path, rows, columns=tuple(COLUMNS)) -> Path:
+def written(path: Path, rows, columns=COLUMNS) -> Path:
     """Write rows as a log."""
     with path.open("w", newline="") as file:
         writer = csv.writer(file)

@@ -24,7 +24,7 @@ def test_errors_are_those_of_repeated_estimates():
 
 def test_what_is_not_felt_is_held():
     jacobian = np.column_stack([100.0 * RNG.normal(size=50), np.zeros(50), RNG.normal(size=50)])
-    free, held = told(jacobian, [3, 5, 8], bound=0.1)
+    free, held = told(jacobian, np.zeros(3), [3, 5, 8], bound=0.1)
     assert free == [3]
     assert [one.place for one in held] == [5, 8]
     assert held[0].standard_error == np.inf
@@ -33,8 +33,13 @@ def test_what_is_not_felt_is_held():
 
 def test_of_two_that_only_go_together_one_is_held():
     column = 100.0 * RNG.normal(size=50)
-    free, held = told(np.column_stack([column, column]), [0, 1], bound=0.1)
+    free, held = told(np.column_stack([column, column]), np.zeros(2), [0, 1], bound=0.1)
     assert len(free) == len(held) == 1
+
+
+def test_what_is_felt_through_noise_is_held():
+    jacobian = 100.0 * RNG.normal(size=(50, 2))
+    assert told(jacobian, np.array([0.9, 0.1]), [4, 6], bound=0.1) == ([6], [(4, np.inf)])
 
 
 def test_high_correlations_are_named_highest_first():

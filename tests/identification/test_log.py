@@ -26,9 +26,12 @@ def auv():
     return load_vehicle("remus100")
 
 
-def table(columns=tuple(COLUMNS), rows=200):
+def table(columns=COLUMNS, rows=200):
     """Return rows in which column j of row i is 0.001 (i + j), and time in steps of 0.1 s."""
-    return [[0.1 * i if name == "time_s" else 0.001 * (i + j) for j, name in enumerate(columns)] for i in range(rows)]
+    return [
+        [0.1 * i if name == "time_s" else 0.001 * (i + j) for j, name in enumerate(columns)]
+        for i in range(rows)
+    ]
 
 
 def log_of(tmp_path, vehicle, columns, rows=None):
@@ -40,7 +43,10 @@ def test_units_become_si(tmp_path, rov):
         *("time_ms", "down_m", "roll_rad", "pitch_deg", "heading_deg", "u_kn", "v_m_s", "w_m_s"),
         *("p_deg_s", "q_rad_s", "r_rad_s", "X_kN", "N_N_m", "reward", "heading_error_deg"),
     ]
-    rows = [[100.0 * i, 3.0, 0.2, 10.0, 20.0, 1.0, 2.0, 3.0, 90.0, 0.1, 0.2, 0.03, 4.0, 0.0, 0.0] for i in range(200)]
+    rows = [
+        [100.0 * i, 3.0, 0.2, 10.0, 20.0, 1.0, 2.0, 3.0, 90.0, 0.1, 0.2, 0.03, 4.0, 0.0, 0.0]
+        for i in range(200)
+    ]
     log = log_of(tmp_path, rov, columns, rows)
     assert log.period == pytest.approx(0.1)
     assert log.velocity_body[0] == pytest.approx([1852.0 / 3600.0, 2.0, 3.0, 0.5 * math.pi, 0.1, 0.2])
@@ -74,9 +80,16 @@ def test_the_trajectory_of_a_flight_is_a_log(tmp_path, rov):
 
     names = [name for part in VECTOR_COLUMNS.values() for name in part]
     columns = {"time_s": 0.1 * np.arange(200)} | {name: np.full(200, 0.1) for name in names}
-    columns |= {name: np.full(200, 1.0 if name == "q_scalar" else 0.0) for name in VECTOR_COLUMNS["quaternion_body_to_ned"]}
+    columns |= {
+        name: np.full(200, 1.0 if name == "q_scalar" else 0.0)
+        for name in VECTOR_COLUMNS["quaternion_body_to_ned"]
+    }
     columns |= {"heading_deg": np.full(200, 90.0), "action_surge": np.append(np.full(199, 0.5), np.nan)}
-    columns |= {"reward": np.zeros(200), "position_error_m": np.zeros(200), "heading_error_deg": np.zeros(200)}
+    columns |= {
+        "reward": np.zeros(200),
+        "position_error_m": np.zeros(200),
+        "heading_error_deg": np.zeros(200),
+    }
     write_columns(columns, tmp_path / "flight.csv")
     log = read_log(tmp_path / "flight.csv", rov)
     assert (log.inputs.values[:-1, 0] == 56.5).all()
@@ -120,7 +133,10 @@ def with_cell(line, name, value):
 
 
 def scaled(factor, *names):
-    return [[factor if name in names else cell for name, cell in zip(COLUMNS, row, strict=True)] for row in table()]
+    return [
+        [factor if name in names else cell for name, cell in zip(COLUMNS, row, strict=True)]
+        for row in table()
+    ]
 
 
 @pytest.mark.parametrize(
@@ -132,7 +148,10 @@ def scaled(factor, *names):
         (with_cell(5, "time_s", ""), r"line 5: there is no time"),
         (with_cell(5, "time_s", 0.05), r"line 5: time = 0.05 s after 0.2 s; give rows in the order"),
         (with_cell(5, "time_s", 0.2), r"line 5: time = 0.2 s after 0.2 s; give rows in the order"),
-        (table()[:50] + [[row[0] + 5.0, *row[1:]] for row in table()[50:]], r"line 52: 5.1 s since .* without a gap"),
+        (
+            table()[:50] + [[row[0] + 5.0, *row[1:]] for row in table()[50:]],
+            r"line 52: 5.1 s since .* without a gap",
+        ),
         (with_cell(5, "X_N", ""), r"line 5: a command is missing"),
         (table(rows=30), r"30 rows; give at least 100"),
         (table(rows=0), r"1 lines; give a header"),

@@ -62,7 +62,12 @@ def test_what_never_moves_is_held_by_name(nominal, tmp_path):
     """A log in heave alone, which never sways: nothing of sway and yaw is told, and nothing of them changes."""
     fit = fitted(nominal, written(tmp_path / "dive.csv", rov_log(SEED, 120.0, (2,))))
     held = {label for label, _ in fit.held}
-    assert {"added mass, sway", "quadratic damping, sway", "quadratic damping, yaw", "added mass, yaw"} <= held
+    assert {
+        "added mass, sway",
+        "quadratic damping, sway",
+        "quadratic damping, yaw",
+        "added mass, yaw",
+    } <= held
     assert {"added mass, heave", "linear damping, heave", "quadratic damping, heave"}.isdisjoint(held)
     assert "sway" in fit.notes[0]
     assert "The log does not tell" in fit.notes[0]
@@ -73,8 +78,10 @@ def test_what_never_moves_is_held_by_name(nominal, tmp_path):
 def test_a_log_at_rest_tells_nothing(nominal, tmp_path):
     weight = nominal.weight - nominal.buoyant_force
     noise = np.random.default_rng(0).normal(0.0, 0.01, (1200, 10))
-    rows = [[0.1 * number, *readings, 0.0, 0.0, -weight, 0.0, 0.0, 0.0] for number, readings in enumerate(noise)]
-    with pytest.raises(InvalidInputError, match="tells nothing of .*surge.*moves in more ways"):
+    rows = [
+        [0.1 * number, *readings, 0.0, 0.0, -weight, 0.0, 0.0, 0.0] for number, readings in enumerate(noise)
+    ]
+    with pytest.raises(InvalidInputError, match=r"tells nothing of .*surge.*moves in more ways"):
         fitted(nominal, written(tmp_path / "rest.csv", rows), Conditions(("added_mass",), step=STEP))
 
 
