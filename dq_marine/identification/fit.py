@@ -50,6 +50,9 @@ SHORTEST, LONGEST = 5.0, 100.0
 ACCURATE_STEP = 0.05
 """Step size over the largest step of the vehicle's sheet."""
 
+CLEAN = 10.0
+"""Noise over the smallest there is, from which residuals are taken for those of sensors."""
+
 Watch = Callable[[str], None]
 
 
@@ -275,8 +278,10 @@ def _result(
 ) -> Fit:
     kept = [parameters[index] for index in free]
     residuals = np.where(problem.missing, np.nan, evaluation.residual * problem.noise)
-    growth, colour = _colour(evaluation.residual, problem.missing)
+    noisy = problem.noise > CLEAN * problem.smallest_noise  # else it is round-off that follows itself
+    growth, colour = _colour(evaluation.residual, problem.missing | ~noisy)
     spread = growth**2 * covariance(evaluation.jacobian)
+    rms = np.sqrt(np.nansum(residuals**2, axis=0) / np.maximum(problem.readings, 1))
     vehicle = problem.vehicle_at(theta)
     before, after = quantities_of(problem.vehicle_at(0.0 * theta), kept), quantities_of(vehicle, kept)
     slopes = np.array([_slopes(problem, kept, theta, index, after) for index in free]).T
@@ -301,7 +306,7 @@ def _result(
         segments.count,
         log.time[segments.rows],
         residuals,
-        np.where(problem.readings > 0, problem.noise, np.nan),
+        np.where(problem.readings > 0, rms, np.nan),
     )
 
 

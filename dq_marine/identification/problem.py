@@ -173,9 +173,10 @@ class Problem:
             own = residual[rows].ravel()
             block = by_start[:, rows].reshape(len(by_start), -1).T
             scale = np.maximum(np.linalg.norm(block, axis=0), 1e-300)
-            basis, singular, rotation = np.linalg.svd(block / scale, full_matrices=False)
-            kept = singular > 1e-8 * singular[0]
-            basis, toward = basis[:, kept], rotation[kept].T / singular[kept]
+            squares, axes = np.linalg.eigh((block / scale).T @ (block / scale))
+            kept = squares > 1e-12 * squares[-1]
+            toward = axes[:, kept] / np.sqrt(squares[kept])
+            basis = block / scale @ toward
             change[segment, self._start_axes] = -(toward @ (basis.T @ own)) / scale
             drawn[segment, self._start_axes] = (toward @ draw.normal(size=basis.shape[1])) / scale
             left[rows] = (own - basis @ (basis.T @ own)).reshape(len(rows), -1)

@@ -85,6 +85,7 @@ def test_a_log_at_rest_tells_nothing(nominal, tmp_path):
         fitted(nominal, written(tmp_path / "rest.csv", rows), Conditions(("added_mass",), step=STEP))
 
 
+@pytest.mark.sweep
 def test_sensors_without_a_reading_and_uneven_times(nominal, tmp_path):
     """A depth meter at 1 Hz, a DVL that drops out, a clock that jitters: fewer readings, the same vehicle."""
     rng = np.random.default_rng(0)
