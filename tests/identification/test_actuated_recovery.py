@@ -54,7 +54,7 @@ def rows_of(vehicle, seconds):
 def test_lift_drag_and_gains_of_an_auv(tmp_path):
     nominal = lagging(load_vehicle("remus100"))
     true = changed(nominal, GROUPS, 3, spread=0.3)
-    path = written(tmp_path / "run.csv", rows_of(true, 600.0), COLUMNS)
+    path = written(tmp_path / "run.csv", rows_of(true, 120.0), COLUMNS)
     fit = fit_vehicle(nominal, read_log(path, nominal), Conditions(GROUPS, step=STEP))
     expected = {one.label: one.value for one in quantities_of(true, parameters_of(nominal, GROUPS))}
     found = {one.label: one for one in fit.estimates}
