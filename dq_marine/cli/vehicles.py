@@ -1,4 +1,4 @@
-"""The commands `dq-marine vehicles ...`: list, check, sheet, show, export, randomise."""
+"""The commands `dq-marine vehicles ...`: list, check, sheet, show, export, randomise, fit."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.markup import escape
 
+from dq_marine.cli import vehicle_fit
 from dq_marine.cli.common import HELP_OPTIONS, console, examples
 
 if TYPE_CHECKING:
@@ -32,10 +33,11 @@ VehicleArgument = Annotated[str, typer.Argument(help="Catalogue name, or path of
         "dq-marine vehicles export bluerov2_heavy my_vehicle.toml",
         "dq-marine vehicles check my_vehicle.toml",
         "dq-marine vehicles randomise bluerov2_heavy",
+        "dq-marine vehicles fit my_vehicle.toml --log run.csv --out fitted.toml",
     ),
 )
 def vehicles(ctx: typer.Context) -> None:
-    """List the vehicles of the catalogue; show, vary, check or export one."""
+    """List the vehicles of the catalogue; show, vary, check, export or fit one."""
     if ctx.invoked_subcommand is not None:
         return
     from dq_marine.cli.vehicle_tables import catalogue_table
@@ -168,6 +170,9 @@ def randomise(
         typer.echo(json_format.dumps([spread.as_dict() for spread in spreads], indent=2, allow_nan=False))
         return
     console.print(spread_table(f"{nominal.name}: {samples} drawn from {file}, seed {seed}", spreads))
+
+
+app.command(epilog=vehicle_fit.EPILOG)(vehicle_fit.fit)
 
 
 def wait_for_interrupt() -> None:

@@ -82,9 +82,11 @@ class Batch:
         self.size = positive_integer("the number of bodies", size)
         lanes = lanes_of(precision, arithmetic)
         self.step_size = step_size
-        packed = [pack(row) for row in parameters]
+        distinct = {id(row): row for row in parameters}  # many bodies may share the numbers of few
+        numbers = {key: pack(row) for key, row in distinct.items()}
+        packed = [numbers[id(row)] for row in parameters]
         self._like = parameters[0]
-        self._layout = layout = lane_layout(parameters[0], differing_fields(parameters), lanes)
+        self._layout = layout = lane_layout(parameters[0], differing_fields(list(distinct.values())), lanes)
         self._shared = pack_shared(layout.parameters, packed[0])
         self._own = empty_blocks(layout.parameters, self.size, lanes)
         pack_blocks(layout.parameters, packed, self._own)

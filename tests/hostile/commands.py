@@ -73,6 +73,10 @@ COMMANDS: dict[tuple[str, ...], dict[str, tuple[str | None, ...]]] = {
     ("vehicles", "randomise", "remus100", "--samples", "3"): {
         "--file": ("default", "published"), "--seed": ("1",), "--json": (None,),
     },
+    ("vehicles", "fit", "bluerov2_heavy", "--log", "tiny_ppo.toml"): {
+        "--fit": ("linear", "gains", "added_mass_full"), "--bound": ("0.1",), "--segment": ("10",), "--step": ("0.05",),
+        "--current": ("0,0,0",), "--out": ("f.toml",), "--plot": ("f.png",), "--no-plot": (None,), "--force": (None,),
+    },
     ("manoeuvre", "otter", "zig-zag"): PLOTLESS,
     ("manoeuvre", "remus100", "decay"): PLOTLESS,
     ("sea", "--hs", "1", "--tp", "7", "--seconds", "100"): {
