@@ -3,11 +3,12 @@
     D(chi) = linear + diag(quadratic |chi|) + sum c_ijk |chi_k| e_i e_j^T + cross-flow drag + blended       (D1)
 
 A coupling c_ijk is a force i by the velocity j that grows with the speed |chi_k|: drag that couples axes (k = j), lift
-of body and fins (k = surge). D need not be symmetric then. Cross-flow drag is that of
+of body and fins (k = surge). A signed one has chi_k in place of |chi_k|: the moment of lift that the trailing end of a
+hull sheds, whichever end that is. D need not be symmetric then. Cross-flow drag is that of
 `physics.damping.formulas.cross_flow`, in the plane of sway and yaw or of heave and pitch; blended damping, on the
 diagonal, that of `physics.damping.formulas.blended`. The derivative of D(chi) chi has c_ijk |chi_k| in column j, and
 
-    c_ijk sign(chi_k) chi_j   in column k                                                                   (D2)
+    c_ijk sign(chi_k) chi_j   in column k, of a signed one c_ijk chi_j                                      (D2)
 
 besides. Which couplings, strips and blends there are is the `DampingStructure`; what is not in it is neither computed
 nor compiled. Indices count the angular part first: 0 to 2 roll, pitch, yaw, 3 to 5 surge, sway, heave.
@@ -41,11 +42,15 @@ SURGE = 3
 
 
 class Coupling(NamedTuple):
-    """A force by a velocity times a speed, each an index: c |chi_speed| stands in row `force`, column `velocity`."""
+    """A force by a velocity times a speed, each an index: c |chi_speed| stands in row `force`, column `velocity`.
+
+    Signed, it is c chi_speed.
+    """
 
     force: int
     velocity: int
     speed: int
+    signed: bool = False
 
 
 class StripShape(NamedTuple):
@@ -125,19 +130,22 @@ def make_entry_addition(row: int, column: int) -> Callable[[Matrix6, float], Mat
 
 @functools.cache
 def make_coupling(coupling: Coupling) -> AddToMatrix:
-    """Return (c, twist, D) -> D with c |chi_k| added to its entry."""
+    """Return (c, twist, D) -> D with c |chi_k|, or c chi_k, added to its entry."""
     add_entry = make_entry_addition(coupling.force, coupling.velocity)
     speed_of = make_component(coupling.speed)
 
     def add_coupling(coefficient: float, twist: Spatial, matrix: Matrix6) -> Matrix6:
         return add_entry(matrix, coefficient * abs(speed_of(twist)))
 
-    return add_coupling
+    def add_signed_coupling(coefficient: float, twist: Spatial, matrix: Matrix6) -> Matrix6:
+        return add_entry(matrix, coefficient * speed_of(twist))
+
+    return add_signed_coupling if coupling.signed else add_coupling
 
 
 @functools.cache
 def make_coupling_slope(coupling: Coupling) -> AddToMatrix:
-    """Return (c, twist, S) -> S with the derivative of c |chi_k| chi_j added to its row."""
+    """Return (c, twist, S) -> S with the derivative of c |chi_k| chi_j, or c chi_k chi_j, added to its row."""
     add_coupling = make_coupling(coupling)
     add_entry = make_entry_addition(coupling.force, coupling.speed)
     speed_of, velocity_of = make_component(coupling.speed), make_component(coupling.velocity)
@@ -147,7 +155,11 @@ def make_coupling_slope(coupling: Coupling) -> AddToMatrix:
         turning = select(speed_of(twist) < 0.0, -turning, turning)
         return add_entry(add_coupling(coefficient, twist, matrix), turning)
 
-    return add_coupling_slope
+    def add_signed_slope(coefficient: float, twist: Spatial, matrix: Matrix6) -> Matrix6:
+        turning = coefficient * velocity_of(twist)  # (D2)
+        return add_entry(add_coupling(coefficient, twist, matrix), turning)
+
+    return add_signed_slope if coupling.signed else add_coupling_slope
 
 
 @functools.cache
