@@ -26,19 +26,21 @@ def array(m):
 
 def random_term(rng, couplings=8):
     """Damping with some couplings, drawn from all that there can be, rows of strips in both planes, and blends."""
-    tensor = np.zeros((6, 6, 6))
-    for entry in rng.integers(0, 6, (couplings, 3)):
-        tensor[tuple(entry)] = rng.normal()
+    tensor, signed = np.zeros((2, 6, 6, 6))
+    for one in (tensor, signed):
+        for entry in rng.integers(0, 6, (couplings, 3)):
+            one[tuple(entry)] = rng.normal()
     strips = [
         ("sway", (rng.uniform(), *rng.normal(size=2), 5)),
         ("heave", (rng.uniform(), *rng.normal(size=2), 4)),
     ]
     blends = [(0, tuple(rng.uniform(0.2, 2.0, 3))), (5, tuple(rng.uniform(0.2, 2.0, 3)))]
     linear, quadratic = random_damping(rng), rng.uniform(size=6)
-    term = make_damping(random_inertia(rng), linear, quadratic, tensor, strips, blends=blends)
+    term = make_damping(random_inertia(rng), linear, quadratic, tensor, strips, blends=blends, signed=signed)
 
     def drag(nu):
         own = linear @ nu + quadratic * np.abs(nu) * nu + np.einsum("ijk,j,k->i", tensor, nu, np.abs(nu))
+        own = own + np.einsum("ijk,j,k->i", signed, nu, nu)
         own = own + sum(strip_drag(plane, *row, nu) for plane, row in strips)
         return own + sum(blended_drag(axis, *numbers, nu) for axis, numbers in blends)
 
