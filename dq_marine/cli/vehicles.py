@@ -1,4 +1,4 @@
-"""The commands `dq-marine vehicles ...`: list, check, sheet, show, export, randomise."""
+"""The commands `dq-marine vehicles ...`: list, check, sheet, show, export, from-mesh, randomise."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import typer
 from rich.markup import escape
 
 from dq_marine.cli.common import HELP_OPTIONS, console, examples
+from dq_marine.cli.from_mesh import EXAMPLES, from_mesh
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Sheet
@@ -31,11 +32,12 @@ VehicleArgument = Annotated[str, typer.Argument(help="Catalogue name, or path of
         "dq-marine vehicles show remus100 --html remus100.html",
         "dq-marine vehicles export bluerov2_heavy my_vehicle.toml",
         "dq-marine vehicles check my_vehicle.toml",
+        "dq-marine vehicles from-mesh hull.stl --mass 31 --unit mm",
         "dq-marine vehicles randomise bluerov2_heavy",
     ),
 )
 def vehicles(ctx: typer.Context) -> None:
-    """List the vehicles of the catalogue; show, vary, check or export one."""
+    """List the vehicles of the catalogue; show, vary, check or export one, or make one from a mesh."""
     if ctx.invoked_subcommand is not None:
         return
     from dq_marine.cli.vehicle_tables import catalogue_table
@@ -168,6 +170,9 @@ def randomise(
         typer.echo(json_format.dumps([spread.as_dict() for spread in spreads], indent=2, allow_nan=False))
         return
     console.print(spread_table(f"{nominal.name}: {samples} drawn from {file}, seed {seed}", spreads))
+
+
+app.command("from-mesh", epilog=examples(*EXAMPLES))(from_mesh)
 
 
 def wait_for_interrupt() -> None:
