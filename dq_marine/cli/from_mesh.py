@@ -36,7 +36,8 @@ def from_mesh(
         float | None, typer.Option("--mass", help="kg. Left out: the mass of the water displaced.")
     ] = None,
     draft: Annotated[
-        float | None, typer.Option("--draft", help="It floats, its keel so deep [m]; the mass follows.")
+        float | None,
+        typer.Option("--draft", help="It floats, its keel so many metres deep; the mass follows."),
     ] = None,
     afloat: Annotated[
         bool, typer.Option("--afloat", help="It floats; the draft follows from --mass.")
@@ -54,12 +55,12 @@ def from_mesh(
     ] = "center",
     center_of_mass: Annotated[
         str | None,
-        typer.Option("--center-of-mass", help="x,y,z from the body origin [m]: forward, starboard, down."),
+        typer.Option("--center-of-mass", help="x,y,z from the body origin in m: forward, starboard, down."),
     ] = None,
     inertia: Annotated[
         str | None,
         typer.Option(
-            "--inertia", help="Ix,Iy,Iz about the centre of mass [kg m^2]. Left out: a uniform filling's."
+            "--inertia", help="Ix,Iy,Iz about the centre of mass in kg m^2. Left out: a uniform filling's."
         ),
     ] = None,
     water_density: Annotated[
@@ -69,7 +70,8 @@ def from_mesh(
     speed: Annotated[
         float | None,
         typer.Option(
-            "--speed", help="Speed that damping is estimated for [m/s]. Left out: 1.5, afloat 0.2 sqrt(g L)."
+            "--speed",
+            help="Speed that damping is estimated for, in m/s. Left out: 1.5, afloat 0.2 sqrt(g L).",
         ),
     ] = None,
     shape: Annotated[
@@ -82,7 +84,7 @@ def from_mesh(
     limits: Annotated[
         str | None,
         typer.Option(
-            "--limits", help="Largest force and moment, six numbers [N, N m]. Left out: from the drag."
+            "--limits", help="Largest force and moment, six numbers in N and N m. Left out: from the drag."
         ),
     ] = None,
     radiation: Annotated[
@@ -102,8 +104,8 @@ def from_mesh(
 ) -> None:
     """Make a vehicle from a mesh of its hull, as a complete vehicle file.
 
-    Volume, centre of buoyancy and the stiffness of a hull afloat are integrals over the mesh. Added mass, with all its
-    couplings, is solved for by the panel method Capytaine (pip install "dq-marine[bem]"): in unbounded water, or
+    Volume, centre of buoyancy and the stiffness of a hull afloat are integrals over the mesh.
+    Added mass, with all its couplings, is solved for by the panel method Capytaine (the extra bem): in unbounded water, or
     at infinite frequency under a free surface. Damping, and what you leave out, is estimated; each number says how, in
     a comment beside it. Triangles are cut until there are enough panels; turned ones are turned back.
     """
@@ -168,13 +170,19 @@ def _summary(built: BuiltVehicle) -> Iterator[str]:
 def _shown_progress() -> Iterator[Progress]:
     """Show on standard error how far the solver is."""
     from rich.progress import Progress as Bars
+    from rich.progress import TaskID
 
-    with Bars(console=error_console, transient=True) as bars:
-        tasks = {}
+    bars = Bars(console=error_console, transient=True)
+    tasks: dict[str, TaskID] = {}
 
-        def show(what: str, done: int, total: int) -> None:
-            if what not in tasks:
-                tasks[what] = bars.add_task(f"Solving for {what}", total=total)
-            bars.update(tasks[what], completed=done)
+    def show(what: str, done: int, total: int) -> None:
+        if what not in tasks:
+            bars.start()  # not before: bars leave a line behind, and a refused mesh has none
+            tasks[what] = bars.add_task(f"Solving for {what}", total=total)
+        bars.update(tasks[what], completed=done)
 
+    try:
         yield show
+    finally:
+        if tasks:
+            bars.stop()

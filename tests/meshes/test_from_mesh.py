@@ -181,6 +181,20 @@ def test_an_added_mass_that_no_body_has_is_refused(tmp_path: Path, monkeypatch: 
     assert list(tmp_path.iterdir()) == [mesh]
 
 
+def test_the_help_shows_units_and_examples() -> None:
+    """Brackets would be taken for markup, and left out."""
+    text = " ".join(
+        CliRunner().invoke(app, ["vehicles", "from-mesh", "--help"], env={"COLUMNS": "200"}).stdout.split()
+    )
+    for words in (
+        "so many metres deep",
+        "in kg m^2",
+        "the extra bem",
+        "from-mesh barge.stl --draft 0.4 --radiation",
+    ):
+        assert words in text
+
+
 def test_the_command_writes_a_file_that_checks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("capytaine", reason=WITHOUT_SOLVER)
     monkeypatch.chdir(tmp_path)
