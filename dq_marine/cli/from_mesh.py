@@ -105,9 +105,9 @@ def from_mesh(
     """Make a vehicle from a mesh of its hull, as a complete vehicle file.
 
     Volume, centre of buoyancy and the stiffness of a hull afloat are integrals over the mesh.
-    Added mass, with all its couplings, is solved for by the panel method Capytaine (the extra bem): in unbounded water, or
-    at infinite frequency under a free surface. Damping, and what you leave out, is estimated; each number says how, in
-    a comment beside it. Triangles are cut until there are enough panels; turned ones are turned back.
+    Added mass, with all its couplings, is solved for by the panel method Capytaine (the extra bem): in unbounded water,
+    or at infinite frequency under a free surface. Damping, and what you leave out, is estimated; each number says how,
+    in a comment beside it. Triangles are cut until there are enough panels; turned ones are turned back.
     """
     from dq_marine.meshes import Choices, vehicle_from_mesh
 
