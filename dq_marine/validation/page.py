@@ -89,10 +89,12 @@ def _explanations(comparison: Comparison) -> list[str]:
 
 
 def _pictures(comparison: Comparison, folder: Path) -> list[str]:
+    """Draw the differences, and the first manoeuvre of each kind; return links to the pictures."""
     offsets = f"{comparison.vehicle}.png"
     save_offsets(comparison, folder / offsets)
     links = [f"![{comparison.title}: differences to the references]({offsets})\n"]
-    for trial, result in comparison.results:
+    first = {result.manoeuvre: (trial, result) for trial, result in reversed(comparison.results)}
+    for trial, result in first.values():
         name = f"{comparison.vehicle}-{_file_name(trial)}.png"
         save_plot(result, folder / name)
         links.append(f"![{comparison.title}: {trial}]({name})\n")
