@@ -24,7 +24,7 @@ lint: $(VENV)/.test  ## check style, types and the direction of imports
 	@$(BIN)/lint-imports
 
 interop: $(VENV)/.test  ## install what tests/interop needs besides: TorchRL, Minari
-	@$(INSTALL) --editable ".[render,agents,dev,interop]"
+	@$(INSTALL) --editable ".[render,agents,bem,dev,interop]"
 
 clean:  ## remove the virtual environment and what the commands wrote
 	rm -rf $(VENV) build dist demo *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
@@ -40,5 +40,5 @@ $(VENV)/.demo: pyproject.toml constraints.txt | $(BIN)/python
 
 $(VENV)/.test: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "dq-marine: installing everything, torch included (one to three minutes)"
-	@$(INSTALL) --editable ".[render,agents,dev]"
+	@$(INSTALL) --editable ".[render,agents,bem,dev]"
 	@touch $@ $(VENV)/.demo

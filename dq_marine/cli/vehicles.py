@@ -1,4 +1,4 @@
-"""The commands `dq-marine vehicles ...`: list, check, sheet, show, export, randomise, fit."""
+"""The commands `dq-marine vehicles ...`: list, check, sheet, show, export, from-mesh, randomise, fit."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from rich.markup import escape
 
 from dq_marine.cli import vehicle_fit
 from dq_marine.cli.common import HELP_OPTIONS, console, examples
+from dq_marine.cli.from_mesh import EXAMPLES, from_mesh
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Sheet
@@ -32,12 +33,13 @@ VehicleArgument = Annotated[str, typer.Argument(help="Catalogue name, or path of
         "dq-marine vehicles show remus100 --html remus100.html",
         "dq-marine vehicles export bluerov2_heavy my_vehicle.toml",
         "dq-marine vehicles check my_vehicle.toml",
+        "dq-marine vehicles from-mesh hull.stl --mass 31 --unit mm",
         "dq-marine vehicles randomise bluerov2_heavy",
         "dq-marine vehicles fit my_vehicle.toml --log run.csv --out fitted.toml",
     ),
 )
 def vehicles(ctx: typer.Context) -> None:
-    """List the vehicles of the catalogue; show, vary, check, export or fit one."""
+    """List the vehicles of the catalogue; show, vary, check, export or fit one, or make one from a mesh."""
     if ctx.invoked_subcommand is not None:
         return
     from dq_marine.cli.vehicle_tables import catalogue_table
@@ -173,6 +175,7 @@ def randomise(
 
 
 app.command(epilog=vehicle_fit.EPILOG)(vehicle_fit.fit)
+app.command("from-mesh", epilog=examples(*EXAMPLES))(from_mesh)
 
 
 def wait_for_interrupt() -> None:

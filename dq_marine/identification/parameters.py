@@ -130,11 +130,12 @@ def _pair_name(i: int, j: int) -> str:
 def _actuators(vehicle: Vehicle) -> list[str]:
     """Return the names of what has a gain: driven thrusters, azimuths, fins."""
     found = vehicle.actuators
-    kinds = (
-        ["thruster"] * len(found.thrusters) + ["azimuth"] * len(found.azimuths) + ["fin"] * len(found.fins)
-    )
-    names = [part.name for parts in found for part in parts]
-    return [name or f"{kind} {number}" for number, (kind, name) in enumerate(zip(kinds, names, strict=True))]
+    named = [
+        *(("thruster", thruster.name) for thruster in found.thrusters),
+        *(("azimuth", azimuth.name) for azimuth in found.azimuths),
+        *(("fin", fin.name) for fin in found.fins),
+    ]
+    return [name or f"{kind} {number}" for number, (kind, name) in enumerate(named)]
 
 
 def vehicle_with(vehicle: Vehicle, parameters: Iterable[Parameter], theta: Iterable[float]) -> Vehicle:

@@ -82,6 +82,23 @@ def new_folder(path: Path) -> Iterator[Path]:
             shutil.rmtree(temporary, ignore_errors=True)
 
 
+def check_targets(targets: Iterable[Path], *, force: bool) -> None:
+    """Check that files may be written, before anything is.
+
+    Args:
+        targets: the files.
+        force: whether those that are there are to be replaced.
+
+    Raises:
+        InvalidInputError: one is a folder, or is there already.
+    """
+    for target in targets:
+        if target.is_dir():
+            raise InvalidInputError(f"{target} is a folder; give a file")
+        if target.exists() and not force:
+            raise InvalidInputError(f"{target} exists; choose another name, or replace it with --force")
+
+
 def with_folder(path: Path) -> Path:
     """Return the path of a file, once the folder it is to be in exists.
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from dq_marine.manoeuvres import Result
 from dq_marine.manoeuvres.table import shown
 from dq_marine.manoeuvres.views import save_plot
 from dq_marine.util.files import with_folder, write_whole
@@ -89,10 +90,14 @@ def _explanations(comparison: Comparison) -> list[str]:
 
 
 def _pictures(comparison: Comparison, folder: Path) -> list[str]:
+    """Draw the differences, and the first manoeuvre of each kind; return links to the pictures."""
     offsets = f"{comparison.vehicle}.png"
     save_offsets(comparison, folder / offsets)
     links = [f"![{comparison.title}: differences to the references]({offsets})\n"]
+    first: dict[str, tuple[str, Result]] = {}
     for trial, result in comparison.results:
+        first.setdefault(result.manoeuvre, (trial, result))
+    for trial, result in first.values():
         name = f"{comparison.vehicle}-{_file_name(trial)}.png"
         save_plot(result, folder / name)
         links.append(f"![{comparison.title}: {trial}]({name})\n")

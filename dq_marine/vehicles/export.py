@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.util.files import replacing_file
+from dq_marine.util.files import check_targets, replacing_file
 from dq_marine.vehicles.loading import catalogue_file
 
 HEADER = """\
@@ -38,11 +38,7 @@ def export_vehicle(name: str, file: Path, *, force: bool = False) -> tuple[Path,
         raise InvalidInputError(f"{file} has the ending {file.suffix!r}; give a file that ends in .toml")
     source = original.read_text(encoding="utf-8")
     tables = _tables(source, original.parent, file)
-    for target in (file, *tables):
-        if target.is_dir():
-            raise InvalidInputError(f"{target} is a folder; give a file")
-        if target.exists() and not force:
-            raise InvalidInputError(f"{target} exists; choose another name, or replace it with --force")
+    check_targets((file, *tables), force=force)
     for target, (_, content) in tables.items():  # before the file that names them
         with replacing_file(target) as temporary:
             temporary.write_bytes(content)

@@ -70,6 +70,12 @@ COMMANDS: dict[tuple[str, ...], dict[str, tuple[str | None, ...]]] = {
     ("vehicles", "check", "tiny_ppo.toml"): SPEED,
     ("vehicles", "show", "--html", "v.html", "remus100"): {"--html": ("w.html",)},
     ("vehicles", "export", "supply_vessel"): {"--force": (None,)},
+    ("vehicles", "from-mesh", "tiny_ppo.toml"): {
+        "--mass": ("3",), "--draft": ("0.2",), "--afloat": (None,), "--unit": ("mm",), "--axes": ("fsd",),
+        "--origin": ("mesh",), "--center-of-mass": ("0,0,0.1",), "--inertia": ("1,1,1",), "--shape": ("ship",),
+        "--limits": ("1,0,0,0,0,1",), "--radiation": (None,), "--frequencies": ("4",), "--panels": ("100",),
+        "--water-density": ("1025",), "--speed": ("2",), "--name": ("mine",), "--force": (None,),
+    },
     ("vehicles", "randomise", "remus100", "--samples", "3"): {
         "--file": ("default", "published"), "--seed": ("1",), "--json": (None,),
     },

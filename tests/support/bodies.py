@@ -72,7 +72,9 @@ def random_quaternion(rng):
     return q / np.linalg.norm(q)
 
 
-def make_damping(mass_matrix, linear, quadratic, couplings=None, strips=(), l_stable=True, blends=(), signed=None):
+def make_damping(
+    mass_matrix, linear, quadratic, couplings=None, strips=(), l_stable=True, blends=(), signed=None
+):
     """A `DampingTerm`; see `make_body`."""
     terms = []
     for plane, (coefficient, first, spacing, number) in strips:
@@ -107,8 +109,8 @@ def make_body(
 ):
     """A `OneBody` with any M, restoring, damping (Fossen's order), current and forces; or a `PlainBody`.
 
-    Couplings are the tensor c_ijk, signed that of the signed ones, strips pairs (plane "sway" or "heave", (c, first x, spacing, number)),
-    blends pairs (axis, (linear, quadratic, crossover)).
+    Couplings are the tensor c_ijk, signed that of the signed ones, strips pairs (plane "sway" or "heave", (c, first x,
+    spacing, number)), blends pairs (axis, (linear, quadratic, crossover)).
     """
     mass_matrix = np.asarray(mass_matrix, dtype=float)
     linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)

@@ -190,9 +190,9 @@ class DampingTerm(NamedTuple):
     @property
     def _structure(self) -> DampingStructure:
         couplings = (
-            Coupling(*(ANGULAR_FIRST[index] for index in indices), signed=signed)
+            Coupling(ANGULAR_FIRST[i], ANGULAR_FIRST[j], ANGULAR_FIRST[k], signed)
             for tensor, signed in ((self.couplings, False), (self.signed_couplings, True))
-            for indices in _entries(tensor)
+            for i, j, k in _entries(tensor)
         )
         shapes = (StripShape(strips.plane, strips.number) for strips in self.strips)
         axes = (ANGULAR_FIRST[term.axis] for term in self.blends)

@@ -69,6 +69,7 @@ def hull_numbers(vehicle: Vehicle, tables: Manoeuvring) -> ManoeuvringHull:
         tables.length,
         0.5 * vehicle.buoyancy.water_density * tables.length * tables.draft,
         float(added[1, 1] - added[0, 0]),
+        float(added[0, 1]),
         hull.depth,
     )
 

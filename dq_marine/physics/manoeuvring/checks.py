@@ -1,4 +1,4 @@
-"""Checks of a ship's MMG model: that it fits the ship, resists motion, and is told for what M is."""
+"""Checks of a ship's MMG model: that it fits the ship and resists motion."""
 
 from __future__ import annotations
 
@@ -23,23 +23,9 @@ def check_manoeuvring(vehicle: Vehicle) -> None:
         Implausible: for the first contradiction found.
     """
     if vehicle.manoeuvring is not None:
-        _check_added_mass(vehicle)
         _check_size(vehicle.manoeuvring, vehicle.dimensions)
         _check_levers(vehicle.manoeuvring)
         _check_resistance(vehicle)
-
-
-def _check_added_mass(vehicle: Vehicle) -> None:
-    """The polynomials hold all that MMG's equations do not have on their left, and these know m_x, m_y, J_z alone."""
-    for i, j in ((0, 1), (0, 5), (1, 5)):
-        value = float(vehicle.added_mass_matrix[i, j])
-        if value != 0.0:
-            raise Implausible(
-                "added_mass",
-                f"[{i}][{j}] = {value:.6g}",
-                "the MMG equations have no added mass that couples surge, sway and yaw",
-                "write 0 there, the numbers being about midship",
-            )
 
 
 def _check_size(tables: Manoeuvring, size: Dimensions) -> None:

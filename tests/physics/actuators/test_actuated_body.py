@@ -8,6 +8,7 @@ from support.actuated import actuator_wrench, solve
 from support.fleet import everything, twin_screw, vehicle_with
 from support.fossen import errors
 from support.order import observed_order
+from support.remus import mss_propeller
 from support.sweeps import sweep
 
 from dq_marine.errors import InvalidInputError, StepNotSolvableError
@@ -110,11 +111,13 @@ def test_a_hull_under_propellers_reaches_its_terminal_speed(speed, gain):
     assert body.velocity_body[0] == pytest.approx(math.copysign(terminal, speed), rel=1e-9)
 
 
-def test_a_remus_runs_at_the_speed_of_its_operating_point():
-    """1500 rpm give 1.51 m/s (Prestero 2001); the propeller's moment only turns the hull about its axis."""
+def test_a_remus_runs_at_the_speed_that_its_propeller_holds():
+    """K n^2 - i n u = q u^2; the propeller's moment only turns the hull about its axis."""
     body = Scene(trimmed(load_vehicle("remus100")), actuation="thrusters").stepper()
-    body.actuate((1500.0 * math.pi / 30.0, 0.0, 0.0), 10000)
-    assert body.velocity_body[0] == pytest.approx(1.51, rel=1e-4)
+    n, k, i, q = 1500.0 * math.pi / 30.0, 4.1188e-3, 0.159506, 6.1645
+    body.actuate((n, 0.0, 0.0), 10000)
+    held = (math.sqrt((i * n) ** 2 + 4.0 * q * k * n * n) - i * n) / (2.0 * q)
+    assert body.velocity_body[0] == pytest.approx(held, rel=1e-4)
 
 
 def test_signs_of_rudder_and_planes():
@@ -124,7 +127,7 @@ def test_signs_of_rudder_and_planes():
     state = body.get_state()
     state[16:18] = 0.1, 0.2  # propeller, rudder, stern planes
     body.set_state(state)
-    expected = 2.25 * np.array([0.0, 0.964, -1.928, 0.0, -1.23, -0.615])
+    expected = 2.25 * np.array([0.0, 0.610584, -4.274088, 0.0, -2.9179198, -0.4168457])
     assert body.actuator_wrench_body == pytest.approx(expected, rel=1e-12)
     body.actuate((0.0, 0.1, 0.0), 5)
     assert body.velocity_body[5] < 0.0
@@ -132,8 +135,11 @@ def test_signs_of_rudder_and_planes():
 
 def test_a_propeller_turns_the_hull_against_itself():
     body = Scene(trimmed(load_vehicle("remus100")), actuation="thrusters").stepper()
-    body.actuate((157.08, 0.0, 0.0))
-    assert body.actuator_wrench_body[[0, 3]] == pytest.approx([6.693, -0.543], rel=1e-3)
+    body.reset(velocity_body=(1.5, 0.0, 0.0, 0.0, 0.0, 0.0))
+    body.actuate((95.8, 0.0, 0.0))
+    thrust, moment = mss_propeller(95.8, 1.5)
+    assert moment == pytest.approx(-0.402, abs=1e-3)
+    assert body.actuator_wrench_body[[0, 3]] == pytest.approx([thrust, moment], rel=2e-3)
 
 
 def test_commands_are_held_and_limited():

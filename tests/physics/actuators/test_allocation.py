@@ -134,7 +134,7 @@ def test_fins_live_on_speed():
     turn = (6.0, 0.0, 0.0, 0.0, 0.0, 2.0)
     assert remus.allocate(turn).command[1:].tolist() == [0.0, 0.0]
     ahead = remus.allocate(turn, surge_speed=1.5)
-    assert ahead.command[1] == pytest.approx(2.0 / (-6.15 * 2.25), rel=1e-6)
+    assert ahead.command[1] == pytest.approx(2.0 / (-4.168457 * 2.25), rel=1e-6)
     assert ahead.wrench_body[[0, 5]] == pytest.approx([6.0, 2.0], rel=1e-6)
     assert remus.allocate(turn, surge_speed=-1.5).command[1] == pytest.approx(-ahead.command[1], rel=1e-6)
 

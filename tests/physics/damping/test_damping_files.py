@@ -158,10 +158,11 @@ def test_a_wrong_file_is_refused(tmp_path, mistake):
 
 # The catalogue's AUVs
 
-# Prestero (2001): totals of added mass and lift, in body axes. Force, velocity, coefficient of u times it.
+# Sgarioto (2006), over his 1.543 m/s: totals of added mass and lift, in body axes.
+# Force, velocity, coefficient of u times the velocity.
 REMUS = {
-    "Y_uv": (1, 1, -28.6), "Z_uw": (2, 2, -28.6), "N_uv": (5, 1, -24.0), "M_uw": (4, 2, 24.0),
-    "Y_ur": (1, 5, 5.22), "Z_uq": (2, 4, -5.22), "M_uq": (4, 4, -2.0), "N_ur": (5, 5, -2.0),
+    "Y_uv": (1, 1, -43.4055), "Z_uw": (2, 2, -43.4055), "N_uv": (5, 1, -4.47 / 1.543), "M_uw": (4, 2, 4.47 / 1.543),
+    "Y_ur": (1, 5, 2.2 / 1.543), "Z_uq": (2, 4, -2.2 / 1.543), "M_uq": (4, 4, -4.45003), "N_ur": (5, 5, -4.45003),
 }  # fmt: skip
 
 # Healey & Lienard (1993), made dimensional with 1025 kg/m^3 and 5.3 m: powers of L for forces by velocities, forces by
@@ -218,15 +219,15 @@ def test_lift_makes_the_nps_auv_stable_on_course():
         assert growth_on_course(vehicle, np.zeros((6, 6, 6)), speed) > 0.0
 
 
-def test_lift_halves_the_instability_of_remus_on_course():
-    """Fins fixed. The criterion Y_v N_r > N_v (Y_r - m) of the published coefficients is not met: 57 against 606."""
+def test_lift_makes_remus_stable_on_course():
+    """Fins fixed. The criterion Y_v N_r > N_v (Y_r - m) of Sgarioto (2006) is met, 193 against 84; not Prestero's."""
     vehicle = load_vehicle("remus100")
     m = vehicle.mass_matrix[np.ix_([1, 5], [1, 5])]
     bare = growth_on_course(vehicle, np.zeros((6, 6, 6)), 1.5)
     lifted = growth_on_course(vehicle, vehicle.damping_couplings, 1.5)
-    published = 1.5 * np.array([[-28.6, 5.22 - vehicle.rigid_body.mass], [-24.0, -2.0]])
+    published = 1.5 * np.array([[-43.4055, 2.2 / 1.543 - vehicle.rigid_body.mass], [-4.47 / 1.543, -4.45003]])
     assert lifted == pytest.approx(np.linalg.eigvals(np.linalg.solve(m, published)).real.max(), abs=1e-4)
-    assert 0.0 < lifted < 0.5 * bare
+    assert lifted < 0.0 < bare
 
 
 def test_the_lift_acts_against_the_flow_astern_as_ahead():
@@ -235,5 +236,5 @@ def test_the_lift_acts_against_the_flow_astern_as_ahead():
     for surge in (1.5, -1.5):
         nu = np.array([surge, 0.1, 0.2, 0.0, 0.0, 0.0])
         force = -np.einsum("ijk,j,k->i", couplings, nu, np.abs(nu))
-        assert force[1] == pytest.approx(-28.6 * 1.5 * 0.1)
-        assert force[2] == pytest.approx(-28.6 * 1.5 * 0.2)
+        assert force[1] == pytest.approx(-43.4055 * 1.5 * 0.1)
+        assert force[2] == pytest.approx(-43.4055 * 1.5 * 0.2)

@@ -213,7 +213,7 @@ def test_lanes_have_the_bits_of_single_ships():
 
 
 def hull_wrench(vehicle, u, v, r):
-    numbers = hull_numbers(vehicle, vehicle.manoeuvring)._replace(munk=0.0)
+    numbers = hull_numbers(vehicle, vehicle.manoeuvring)._replace(munk=0.0, skew=0.0)
     wrench = to_fossen(manoeuvring_hull(numbers, POSE, from_fossen((u, v, 0.0, 0.0, 0.0, r)), 0.0))
     return np.array(wrench)[[0, 1, 5]]
 
@@ -314,12 +314,19 @@ def test_files_that_are_wrong(change, message):
         validated(content, "test")
 
 
-def test_added_mass_that_mmg_does_not_know_is_refused():
-    content = load_vehicle("kvlcc2_l7").model_dump()
+def test_a_drifting_hull_has_the_yaw_moment_of_its_polynomial_whatever_its_added_mass():
+    """Without turning, the Munk moment of any M cancels."""
+    content, rng = ship().model_dump(), np.random.default_rng(4)
     matrix = np.array(content["added_mass"])
-    matrix[1, 5] = matrix[5, 1] = 30.0
-    with pytest.raises(InvalidInputError, match=r"added_mass.*\[1\]\[5\] = 30.*write 0 there"):
-        validated(content | {"added_mass": matrix.tolist()}, "test")
+    for (i, j), value in {(0, 1): 40.0, (0, 5): 60.0, (1, 5): -300.0}.items():
+        matrix[i, j] = matrix[j, i] = value
+    coupled = validated(content | {"added_mass": matrix.tolist()}, "test")
+    (hull,) = manoeuvring_terms(coupled)
+    for u, v in rng.normal(0.0, 1.0, (50, 2)):
+        nu = np.array([u, v, 0.0, 0.0, 0.0, 0.0])
+        wrench = np.array(to_fossen(hull.function(hull.parameters, POSE, from_fossen(nu), 0.0)))
+        total = wrench - coriolis(coupled.mass_matrix, nu) @ nu
+        assert total[5] == pytest.approx(hull_wrench(coupled, u, v, 0.0)[2], rel=1e-11, abs=1e-10)
 
 
 def test_thrust_is_not_allocated_to_a_stern():

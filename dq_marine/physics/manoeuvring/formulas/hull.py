@@ -54,6 +54,7 @@ class ManoeuvringHull(NamedTuple):
         length: L between perpendiculars [m].
         pressure: rho L d/2, force over the square of a speed [kg/m].
         munk: A_22 - A_11, the Munk moment of M over u v [kg].
+        skew: A_12, the same over u^2 - v^2: 0 of a ship that is alike on both sides [kg].
         depth: z at which X and Y act [m].
     """
 
@@ -64,6 +65,7 @@ class ManoeuvringHull(NamedTuple):
     length: float
     pressure: float
     munk: float
+    skew: float
     depth: float
 
 
@@ -130,5 +132,7 @@ def manoeuvring_hull(hull: ManoeuvringHull, pose: DualQuaternion, twist: Spatial
     pressure = hull.pressure * motion.speed * motion.speed
     x = pressure * surge_force(hull.surge, motion)
     y = pressure * sway_force(hull.sway, motion)
-    n = pressure * hull.length * yaw_moment(hull.yaw, motion) + hull.munk * twist.linear[0] * twist.linear[1]
+    u, v = twist.linear[0], twist.linear[1]
+    munk = hull.munk * u * v + hull.skew * (u * u - v * v)
+    n = pressure * hull.length * yaw_moment(hull.yaw, motion) + munk
     return Spatial((-hull.depth * y, hull.depth * x, n), (x, y, 0.0))
