@@ -120,8 +120,10 @@ def test_wrong_orders_are_refused():
 
 
 def test_a_vehicle_that_tumbles_says_so():
-    """BlueROV2: its thrusters push below its centre, nothing actuates pitch, and at full throttle it goes over."""
-    vehicle = load_vehicle("bluerov2")
+    """BlueROV2 without lift, as published: nothing actuates pitch, and at full throttle Munk's moment turns it over."""
+    whole = load_vehicle("bluerov2")
+    vehicle = whole.model_copy(update={"damping": whole.damping.model_copy(update={"couplings": ()})})
+    assert not any("throttle" in note for note in acceleration(whole).notes)
     assert "try less throttle" in acceleration(vehicle).notes[-1]
     assert not any(
         "throttle" in note for note in acceleration(vehicle, conditions=Conditions(throttle=0.1)).notes
