@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +14,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.meshes.panels import MOST_PANELS
 from dq_marine.meshes.surface import Array
 from dq_marine.physics.constants import GRAVITY
+from dq_marine.vehicles.model import Dimensions
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 """Length of a mesh's unit [m]."""
@@ -22,7 +24,7 @@ AXES: dict[str, Array] = {"flu": np.diag([1.0, -1.0, -1.0]), "fsd": np.eye(3)}
 
 ORIGINS = ("center", "mesh")
 MOST_FREQUENCIES = 200
-SHAPES = ("open_frame", "torpedo", "ellipsoid", "catamaran", "ship")
+SHAPES: tuple[str, ...] = get_args(Dimensions.model_fields["shape"].annotation)
 
 
 @dataclass(frozen=True)
