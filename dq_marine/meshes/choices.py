@@ -14,6 +14,7 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.meshes.panels import MOST_PANELS
 from dq_marine.meshes.surface import Array
 from dq_marine.physics.constants import GRAVITY
+from dq_marine.physics.gravity import checked_gravity
 from dq_marine.vehicles.model import Dimensions
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
@@ -86,6 +87,11 @@ class Choices:
             one_of("shape", self.shape, SHAPES)
         for key, size in (("center_of_mass", 3), ("inertia", 3), ("limits", 6)):
             _check_numbers(key, getattr(self, key), size)
+        checked_gravity(self.gravity)
+        if not isinstance(self.afloat, bool | np.bool_):
+            raise InvalidInputError(f"afloat = {shown(self.afloat)}; give True or False")
+        if self.name is not None and not (isinstance(self.name, str) and self.name.strip()):
+            raise InvalidInputError(f"name = {shown(self.name)}; give a text")
         whole_number("panels", self.panels, least=100, most=MOST_PANELS)
         whole_number("frequencies", self.frequencies, least=0, most=MOST_FREQUENCIES)
         if self.draft is not None and (self.mass is not None or self.afloat):

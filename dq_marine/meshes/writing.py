@@ -9,7 +9,7 @@ from typing import Any
 
 from dq_marine.meshes.building import BuiltVehicle, build_vehicle
 from dq_marine.meshes.choices import Choices
-from dq_marine.meshes.potential_flow import Progress
+from dq_marine.meshes.potential_flow import Progress, untold
 from dq_marine.util.files import check_ending, check_folder, check_targets, write_csv, write_whole
 from dq_marine.util.toml_text import toml_text
 
@@ -30,7 +30,7 @@ COLUMNS = 118
 
 
 def vehicle_from_mesh(
-    mesh: Path, file: Path, choices: Choices, *, force: bool = False, progress: Progress
+    mesh: Path, file: Path, choices: Choices, *, force: bool = False, progress: Progress = untold
 ) -> tuple[BuiltVehicle, tuple[Path, ...]]:
     """Make a vehicle from a mesh and write its file, and beside it a table of radiation if that was asked for.
 

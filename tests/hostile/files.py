@@ -34,7 +34,7 @@ CHOICES = {
     "gravity": (9.8,),
     "name": ("mine",),
 }
-"""What a vehicle from a mesh may be made with, besides panels: few, or a case would take long."""
+"""What a vehicle from a mesh may be made with, besides panels: as few as may be, or a case would take long."""
 
 REFERENCES = Path(dq_marine.validation.__file__).parent / "references"
 
@@ -68,11 +68,11 @@ def drawn_mesh_file(rng: Rng) -> Callable[[], Any]:
         content = changed_bytes(rng, content)
     chosen: dict[str, Any] = {}
     for name, values in CHOICES.items():
-        if not rng.integers(5):
+        if not rng.integers(8):
             chosen[name] = hostile(rng) if rng.integers(2) else values[rng.integers(len(values))]
 
     def make(file: Path) -> Any:
-        return vehicle_from_mesh(file, file.with_name("made.toml"), Choices(**chosen, panels=40))
+        return vehicle_from_mesh(file, file.with_name("made.toml"), Choices(**chosen, panels=100))
 
     return with_file("hull.stl", content, make)
 
@@ -80,7 +80,7 @@ def drawn_mesh_file(rng: Rng) -> Callable[[], Any]:
 def drawn_log_file(rng: Rng) -> Callable[[], Any]:
     """Logged motion, gone wrong or not."""
     lines = [",".join(COLUMNS)]
-    for k in range(40):
+    for k in range(120):
         row = [0.1 * k, 5.0, 1.0, 2.0, 90.0, *rng.normal(0.3, 0.01, 6), *rng.normal(0.0, 5.0, 6)]
         lines.append(",".join(f"{number:.6g}" for number in row))
     text = "\n".join(lines)
