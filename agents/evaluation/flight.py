@@ -21,6 +21,7 @@ from dq_marine.agents.evaluation.trajectory import check_trajectory_path, write_
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
+from dq_marine.util.files import check_folder
 
 LONGEST_FLIGHT = 1e6
 """Simulated time [s]; all of it is kept in memory."""
@@ -165,8 +166,7 @@ def far_seed(plan: FlightPlan) -> int:
 def _check_files(outputs: Outputs) -> None:
     """Refuse before the flight what could not be written after it."""
     for path in outputs.files:
-        if not path.parent.is_dir():
-            raise InvalidInputError(f"the folder {path.parent} does not exist; create it first")
+        check_folder(path)
     if outputs.plot is not None:
         from dq_marine.util.figures import check_picture_path
 

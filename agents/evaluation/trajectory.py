@@ -14,7 +14,7 @@ from dq_marine.algebra.attitude import attitude_angles
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
-from dq_marine.util.files import replacing_file
+from dq_marine.util.files import check_folder, replacing_file
 
 ENDINGS = (".csv", ".parquet")
 
@@ -70,8 +70,7 @@ def check_trajectory_path(path: Path) -> None:
         raise InvalidInputError(
             f"{path} has no ending that trajectories have; give one of {', '.join(ENDINGS)}"
         )
-    if not path.parent.is_dir():
-        raise InvalidInputError(f"the folder {path.parent} does not exist; create it first")
+    check_folder(path)
     if path.suffix == ".parquet":
         with extra_needed("writing Parquet", "parquet"):
             import pyarrow.parquet  # noqa: F401 - to say that it is missing before anything is flown

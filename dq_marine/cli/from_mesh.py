@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from dq_marine.cli.common import console, error_console
-from dq_marine.errors import InvalidInputError
+from dq_marine.cli.keyword_values import read_value
 
 if TYPE_CHECKING:
     from dq_marine.meshes.building import BuiltVehicle
@@ -118,12 +118,12 @@ def from_mesh(
         unit=unit,
         axes=axes,
         origin=origin,
-        center_of_mass=_numbers("--center-of-mass", center_of_mass),
-        inertia=_numbers("--inertia", inertia),
+        center_of_mass=_given("--center-of-mass", center_of_mass),
+        inertia=_given("--inertia", inertia),
         water_density=water_density,
         speed=speed,
         shape=shape,
-        limits=_numbers("--limits", limits),
+        limits=_given("--limits", limits),
         panels=panels,
         frequencies=frequencies if radiation else 0,
         name=name,
@@ -138,14 +138,8 @@ def from_mesh(
     console.print(f"Next: dq-marine vehicles check {target}", soft_wrap=True, highlight=False, markup=False)
 
 
-def _numbers(name: str, text: str | None) -> tuple[float, ...] | None:
-    """Return numbers that commas part."""
-    if text is None:
-        return None
-    try:
-        return tuple(float(part) for part in text.split(","))
-    except ValueError as error:
-        raise InvalidInputError(f"{name} = {text!r}: {error}; give numbers with commas between") from error
+def _given(option: str, text: str | None) -> Any:
+    return None if text is None else read_value(text, option=option)
 
 
 def _summary(built: BuiltVehicle) -> Iterator[str]:

@@ -39,30 +39,13 @@ QUANTITIES: dict[str, Mapping[str, float]] = {
 CHANNEL_UNITS: dict[str, Mapping[str, float]] = {"rad/s": SHAFT_SPEEDS, "rad": ANGLES, "1": {"": 1.0}}
 """Units of commands, by the unit of the channel; a share of the largest speed has none."""
 
-UNIT_WORDS = frozenset(
-    (
-        *(
-            "s",
-            "ms",
-            "us",
-            "min",
-            "h",
-            "m",
-            "mm",
-            "cm",
-            "km",
-            "ft",
-            "in",
-            "kn",
-            "mph",
-            "kmh",
-            "rad",
-            "mrad",
-            "deg",
-        ),
-        *("rev", "rpm", "N", "kN", "MN", "kgf", "lbf", "Nm", "kNm", "lb"),
-    )
-)
+TIME_WORDS = ("s", "ms", "us", "min", "h")
+LENGTH_WORDS = ("m", "mm", "cm", "km", "ft", "in")
+SPEED_WORDS = ("kn", "mph", "kmh")
+ANGLE_WORDS = ("rad", "mrad", "deg", "rev", "rpm")
+FORCE_WORDS = ("N", "kN", "MN", "kgf", "lbf", "lb", "Nm", "kNm")
+
+UNIT_WORDS = frozenset((*TIME_WORDS, *LENGTH_WORDS, *SPEED_WORDS, *ANGLE_WORDS, *FORCE_WORDS))
 """A name that ends in such words has a unit, known or not."""
 
 

@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from dq_marine.errors import InvalidInputError
 from dq_marine.identification.fit import Fit
 from dq_marine.identification.problem import OUTPUTS
-from dq_marine.util.files import write_whole
+from dq_marine.util.files import check_ending, check_folder, check_targets, write_whole
 from dq_marine.util.toml_text import toml_text
 
 
@@ -20,14 +19,9 @@ def check_vehicle_path(path: Path, *, force: bool) -> None:
     Raises:
         InvalidInputError: its ending is not .toml, its folder does not exist, or it is there and shall not be replaced.
     """
-    if path.suffix != ".toml":
-        raise InvalidInputError(f"{path} has the ending {path.suffix!r}; give a file that ends in .toml")
-    if not path.parent.is_dir():
-        raise InvalidInputError(f"the folder {path.parent} does not exist; create it first")
-    if path.is_dir():
-        raise InvalidInputError(f"{path} is a folder; give a file")
-    if path.exists() and not force:
-        raise InvalidInputError(f"{path} exists; choose another name, or replace it with --force")
+    check_ending(path, ".toml")
+    check_folder(path)
+    check_targets([path], force=force)
 
 
 def write_fitted(fit: Fit, path: Path) -> None:

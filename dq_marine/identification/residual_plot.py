@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from dq_marine.errors import InvalidInputError
 from dq_marine.identification.fit import Fit
 from dq_marine.identification.problem import OUTPUTS
 from dq_marine.util.extras import extra_needed
 from dq_marine.util.figures import check_picture_path, keep_what_carries_data, new_figure, save_figure
+from dq_marine.util.files import check_folder
 from dq_marine.util.plot_style import BLUE, INK, SETTINGS, VERMILLION
 
 COLUMNS = 3
@@ -25,8 +25,7 @@ def check_plot_path(path: Path) -> None:
         MissingDependencyError: matplotlib is not installed.
     """
     check_picture_path(path)
-    if not path.parent.is_dir():
-        raise InvalidInputError(f"the folder {path.parent} does not exist; create it first")
+    check_folder(path)
 
 
 def save_residuals(fit: Fit, path: Path) -> None:

@@ -20,8 +20,10 @@ three equations in t: the translation is eliminated exactly. Second order, symme
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
+from dq_marine.algebra.axes import X_AXIS, Y_AXIS, Z_AXIS, Axis
 from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.matrix3 import Matrix3, matrix_from_columns, transform
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, dot, scale, subtract
@@ -73,33 +75,40 @@ def drift_equation(inertia: Inertia, t: Vector3, a: Vector3, b: Vector3) -> Drif
     return DriftEquation(t, gain, zb, y, za, w, residual, relative)
 
 
-def drift_derivative(inertia: Inertia, at: DriftEquation, dt: Vector3) -> Vector3:
-    """Return the derivative of the residual (D5) at `at` in the direction dt."""
-    t = at.t
-    turn = scale(2.0 * at.gain, subtract(dt, cross(t, dt)))  # the half rotation's angular increment
-    dzb = cross(at.zb, turn)
-    dy = transform(
-        inertia.linear_block_inverse,
-        add_scaled(dzb, -2.0, transform(inertia.matrix.linear_angular, dt)),
-    )
-    dza = add(
-        scale(2.0, transform(inertia.matrix.angular, dt)),
-        transform(inertia.matrix.angular_linear, dy),
-    )
-    dw = add(cross(dy, at.zb), cross(at.y, dzb))
-    turning = add_scaled(scale(-2.0 * dot(t, dt), at.za), 2.0 * dot(t, at.za), dt)
-    turning = add_scaled(turning, 2.0 * dot(dt, at.za), t)
-    turning = add_scaled(turning, 2.0, cross(dt, at.za))
-    turning = add(turning, conjugate_unscaled(t, dza))
-    return add(add(turning, cross(dt, at.w)), add(dw, cross(t, dw)))
+def make_drift_derivative(axis: Axis) -> Callable[[Inertia, DriftEquation], Vector3]:
+    """Return (inertia, at) -> the derivative of the residual (D5) at `at` when t grows along an axis."""
+    along, column, lengthen, turned, add_cross = axis
+
+    def drift_derivative(inertia: Inertia, at: DriftEquation) -> Vector3:
+        t = at.t
+        dzb = cross(at.zb, turned(2.0 * at.gain, t))  # by the half rotation's angular increment
+        dy = transform(
+            inertia.linear_block_inverse,
+            add_scaled(dzb, -2.0, column(inertia.matrix.linear_angular)),
+        )
+        dza = add(
+            scale(2.0, column(inertia.matrix.angular)),
+            transform(inertia.matrix.angular_linear, dy),
+        )
+        dw = add(cross(dy, at.zb), cross(at.y, dzb))
+        turning = lengthen(scale(-2.0 * along(t), at.za), 2.0 * dot(t, at.za))
+        turning = add_scaled(turning, 2.0 * along(at.za), t)
+        turning = add_cross(turning, 2.0, at.za)
+        turning = add(turning, conjugate_unscaled(t, dza))
+        return add(add_cross(turning, 1.0, at.w), add(dw, cross(t, dw)))
+
+    return drift_derivative
+
+
+derivative_along_x = make_drift_derivative(X_AXIS)
+derivative_along_y = make_drift_derivative(Y_AXIS)
+derivative_along_z = make_drift_derivative(Z_AXIS)
 
 
 def drift_jacobian(inertia: Inertia, at: DriftEquation) -> Matrix3:
     """Return the 3x3 Jacobian of the residual (D5) at `at`."""
     return matrix_from_columns(
-        drift_derivative(inertia, at, (1.0, 0.0, 0.0)),
-        drift_derivative(inertia, at, (0.0, 1.0, 0.0)),
-        drift_derivative(inertia, at, (0.0, 0.0, 1.0)),
+        derivative_along_x(inertia, at), derivative_along_y(inertia, at), derivative_along_z(inertia, at)
     )
 
 

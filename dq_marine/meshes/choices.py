@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +14,8 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.meshes.panels import MOST_PANELS
 from dq_marine.meshes.surface import Array
 from dq_marine.physics.constants import GRAVITY
+from dq_marine.physics.gravity import checked_gravity
+from dq_marine.vehicles.model import Dimensions
 
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 """Length of a mesh's unit [m]."""
@@ -22,7 +25,7 @@ AXES: dict[str, Array] = {"flu": np.diag([1.0, -1.0, -1.0]), "fsd": np.eye(3)}
 
 ORIGINS = ("center", "mesh")
 MOST_FREQUENCIES = 200
-SHAPES = ("open_frame", "torpedo", "ellipsoid", "catamaran", "ship")
+SHAPES: tuple[str, ...] = get_args(Dimensions.model_fields["shape"].annotation)
 
 
 @dataclass(frozen=True)
@@ -84,6 +87,11 @@ class Choices:
             one_of("shape", self.shape, SHAPES)
         for key, size in (("center_of_mass", 3), ("inertia", 3), ("limits", 6)):
             _check_numbers(key, getattr(self, key), size)
+        checked_gravity(self.gravity)
+        if not isinstance(self.afloat, bool | np.bool_):
+            raise InvalidInputError(f"afloat = {shown(self.afloat)}; give True or False")
+        if self.name is not None and not (isinstance(self.name, str) and self.name.strip()):
+            raise InvalidInputError(f"name = {shown(self.name)}; give a text")
         whole_number("panels", self.panels, least=100, most=MOST_PANELS)
         whole_number("frequencies", self.frequencies, least=0, most=MOST_FREQUENCIES)
         if self.draft is not None and (self.mass is not None or self.afloat):

@@ -21,6 +21,11 @@ from dq_marine.util.extras import extra_needed
 Progress = Callable[[str, int, int], None]
 """Called with what is being solved, how many problems are done, and how many there are."""
 
+
+def untold(solving: str, done: int, problems: int) -> None:
+    """Tell nobody."""
+
+
 TO_UP = np.array([1.0, -1.0, -1.0])
 """From forward-starboard-down to Capytaine's axes, x forward, y to port, z up; and back."""
 

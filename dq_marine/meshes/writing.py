@@ -7,11 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from dq_marine.errors import InvalidInputError
 from dq_marine.meshes.building import BuiltVehicle, build_vehicle
 from dq_marine.meshes.choices import Choices
-from dq_marine.meshes.potential_flow import Progress
-from dq_marine.util.files import check_targets, write_csv, write_whole
+from dq_marine.meshes.potential_flow import Progress, untold
+from dq_marine.util.files import check_ending, check_folder, check_targets, write_csv, write_whole
 from dq_marine.util.toml_text import toml_text
 
 HEADER = """\
@@ -31,7 +30,7 @@ COLUMNS = 118
 
 
 def vehicle_from_mesh(
-    mesh: Path, file: Path, choices: Choices, *, force: bool = False, progress: Progress
+    mesh: Path, file: Path, choices: Choices, *, force: bool = False, progress: Progress = untold
 ) -> tuple[BuiltVehicle, tuple[Path, ...]]:
     """Make a vehicle from a mesh and write its file, and beside it a table of radiation if that was asked for.
 
@@ -49,13 +48,11 @@ def vehicle_from_mesh(
         InvalidInputError: mesh, choice or file is unfit; nothing is written.
         MissingDependencyError: Capytaine is not installed.
     """
-    if file.suffix != ".toml":
-        raise InvalidInputError(f"{file} has the ending {file.suffix!r}; give a file that ends in .toml")
+    check_ending(file, ".toml")
     table = file.with_name(f"{file.stem}_radiation.csv")
     files = (file, table) if choices.frequencies else (file,)
     check_targets(files, force=force)
-    if not file.parent.is_dir():
-        raise InvalidInputError(f"{file.parent} is no folder; give a file in one that is there")
+    check_folder(file)
     built = build_vehicle(mesh, choices, progress)
     if built.waves is not None:
         write_csv(table, built.waves.rows())  # before the file that names it

@@ -99,6 +99,26 @@ def check_targets(targets: Iterable[Path], *, force: bool) -> None:
             raise InvalidInputError(f"{target} exists; choose another name, or replace it with --force")
 
 
+def check_folder(path: Path) -> None:
+    """Check that the folder a file is to be in exists.
+
+    Raises:
+        InvalidInputError: it does not.
+    """
+    if not path.parent.is_dir():
+        raise InvalidInputError(f"the folder {path.parent} does not exist; create it first")
+
+
+def check_ending(path: Path, ending: str) -> None:
+    """Check that a file's name ends in what its kind ends in, such as ".toml".
+
+    Raises:
+        InvalidInputError: it does not.
+    """
+    if path.suffix != ending:
+        raise InvalidInputError(f"{path} has the ending {path.suffix!r}; give a file that ends in {ending}")
+
+
 def with_folder(path: Path) -> Path:
     """Return the path of a file, once the folder it is to be in exists.
 

@@ -7,8 +7,7 @@ import re
 import tomllib
 from pathlib import Path
 
-from dq_marine.errors import InvalidInputError
-from dq_marine.util.files import check_targets, replacing_file
+from dq_marine.util.files import check_ending, check_targets, replacing_file
 from dq_marine.vehicles.loading import catalogue_file
 
 HEADER = """\
@@ -34,8 +33,7 @@ def export_vehicle(name: str, file: Path, *, force: bool = False) -> tuple[Path,
             the folder cannot be written; nothing is changed.
     """
     original = catalogue_file(name)
-    if file.suffix != ".toml":
-        raise InvalidInputError(f"{file} has the ending {file.suffix!r}; give a file that ends in .toml")
+    check_ending(file, ".toml")
     source = original.read_text(encoding="utf-8")
     tables = _tables(source, original.parent, file)
     check_targets((file, *tables), force=force)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.util.files import write_whole
+from dq_marine.util.files import check_folder, write_whole
 from dq_marine.viewer.libraries import meshcat_page_folder
 from dq_marine.viewer.placement import Placement
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
@@ -70,8 +70,7 @@ def save_replay(
 def _checked_target(path: Path) -> Path:
     if path.is_dir():
         raise InvalidInputError(f"{path} is a folder; give the path of a file in it")
-    if not path.parent.is_dir():
-        raise InvalidInputError(f"the folder {path.parent} does not exist; create it first")
+    check_folder(path)
     return path
 
 

@@ -341,10 +341,10 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         return begun_episode(*parts, number, self.action_mapping.size)
 
     def _info(self, episode: Episode, refused: bool, fallbacks: int) -> dict[str, Any]:
-        numbers, success = episode.report, self._success_place
+        numbers, success = episode.report.copy(), self._success_place
         info: dict[str, Any] = dict(zip(self._report_names, numbers))  # noqa: B905 - `strict` costs as much as a number
         info["is_success"] = FLAGS[numbers.item(success) > 0.0].copy()
-        info["current_ned"] = numbers[success + 1 :].copy()
+        info["current_ned"] = numbers[success + 1 :]
         info["refused"] = FLAGS[refused].copy()
         info["fallback_substeps"] = np.int64(fallbacks) if fallbacks else NO_FALLBACKS
         if self._has_choice:

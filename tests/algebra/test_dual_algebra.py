@@ -219,7 +219,7 @@ def test_no_function_is_left_out():
 
 
 @pytest.mark.parametrize("group", range(len(GROUPS)))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(
     st.integers(0, 2**32 - 1),
     st.one_of(st.tuples(st.integers(1, 5)), st.tuples(st.integers(1, 4), st.integers(1, 3))),
@@ -237,7 +237,7 @@ def test_scalars_arrays_and_compiled_code_have_the_same_bits(group, seed, shape)
         assert np.array(single).tobytes() == pack(entry(compiled, index)).tobytes()
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([(), (4,), (3, 2), (0,)]))
 def test_branching_functions_have_the_same_bits_in_batches(seed, shape):
     """Functions with branches: compiled over leading axes, against plain Python; all branches are met."""

@@ -104,13 +104,13 @@ def everything(a, b):
 RESULTS = 8 + 9 + 8 + 6 + 2 + 10
 
 
-@settings(deadline=None, max_examples=300)
+@settings(max_examples=300)
 @given(rows=rows_of(2))
 def test_every_operation_has_the_bits_of_a_single_number(rows):
     assert same_bits(in_lanes(everything, rows, RESULTS), by_rows(everything, rows, RESULTS))
 
 
-@settings(deadline=None, max_examples=300)
+@settings(max_examples=300)
 @given(rows=rows_of(2, "float32"))
 def test_every_operation_is_rounded_to_single_precision(rows):
     """To the nearest: rounded once more, what double precision gives of two such numbers is that."""
@@ -136,7 +136,6 @@ def python_max_min(a, b):
     return max(a, b), min(a, b), max(b, a), min(b, a)
 
 
-@settings(deadline=None)
 @given(rows=rows_of(2))
 def test_max_and_min_choose_as_python_does(rows):
     """The first unless the second is larger: which says what becomes of NaN and of the zeros' signs."""
@@ -178,7 +177,6 @@ def logic(a, b):
     return p & q, p | q, p ^ q, negation(p), p & True, p | False, negation(p & q) | (p & negation(q))
 
 
-@settings(deadline=None)
 @given(rows=rows_of(2))
 def test_conditions_are_joined_lane_by_lane(rows):
     p, q = rows.T > 0.0
@@ -226,7 +224,6 @@ def chosen_of(a, b):
     return [*chosen, *back, condition, True if b >= a else a == a, a]
 
 
-@settings(deadline=None)
 @given(rows=rows_of(2))
 def test_select_takes_tuples_apart(rows):
     with np.errstate(over="ignore", invalid="ignore"):
@@ -241,7 +238,6 @@ def counters(a, b):
     return count, count * 2, 5 - count, count == 3, max(count, 0)
 
 
-@settings(deadline=None)
 @given(rows=rows_of(2))
 def test_lanes_count(rows):
     count = (rows[:, 0] > 0.0).astype(int) + 3 * (rows[:, 1] > 0.0) - 1
@@ -262,7 +258,7 @@ def noted(calls, which, a, pair):
 
 
 @BOTH
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(data=st.data())
 def test_a_function_is_called_for_the_chosen_lanes_alone(precision, data):
     width = WIDTHS[precision]
@@ -320,7 +316,6 @@ def plain(a, b):
     )
 
 
-@settings(deadline=None)
 @given(rows=rows_of(2))
 def test_one_number_chooses_in_compiled_code_as_in_plain_python(rows):
     expected = [(*flat, *last) for *flat, last in (plain(*row) for row in rows.tolist())]

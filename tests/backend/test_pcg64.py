@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from gymnasium.utils.seeding import np_random
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from dq_marine.backend.compilation import compile_function
@@ -46,7 +46,6 @@ def drawn(words, count):
     return numbers
 
 
-@settings(deadline=None)
 @given(seed=SEEDS)
 def test_the_stream_is_gymnasiums(seed):
     expected = np_random(seed)[0].random(100)
@@ -59,7 +58,6 @@ def test_a_long_stream_keeps_every_bit():
     assert state_of(words) == generator.bit_generator.state
 
 
-@settings(deadline=None)
 @given(words=st.one_of(WORDS, st.lists(st.integers(0, 2**64 - 1), min_size=4, max_size=4)))
 @pytest.mark.parametrize("draw", [compiled_next, next_uniform], ids=["compiled", "plain"])
 def test_a_step_from_any_state(draw, words):
@@ -73,7 +71,6 @@ def test_a_step_from_any_state(draw, words):
     assert state_of(words) == generator.bit_generator.state
 
 
-@settings(deadline=None)
 @given(seed=SEEDS, before=st.integers(0, 50), compiled=st.integers(0, 50))
 def test_a_stream_passes_from_numpy_to_compiled_code_and_back(seed, before, compiled):
     generator, expected = np_random(seed)[0], np_random(seed)[0].random(before + compiled + 10)
@@ -90,7 +87,6 @@ def test_rows_are_separate_streams():
     assert np.array_equal(rows[[0, 2]], untouched[[0, 2]])
 
 
-@settings(deadline=None)
 @given(seeds=st.lists(st.one_of(SEEDS, st.sampled_from(EDGE_SEEDS)), max_size=20))
 def test_many_seeds_at_once_are_as_one_by_one(seeds):
     rows = np.zeros((len(seeds), STATE_WORDS), dtype=np.uint64)

@@ -44,7 +44,10 @@ class Verdict(NamedTuple):
 def judged(seed: int, door: str | None = None) -> Verdict:
     """Try the case of a seed, through one door or through the one that the seed draws."""
     rng = np.random.default_rng([seed, 1])
-    name = NAMES[rng.integers(len(NAMES))] if door is None else door
+    drawn = NAMES[
+        rng.integers(len(NAMES))
+    ]  # whether used or not, so that a door can be named of a case found
+    name = door or drawn
     chosen = DOORS[name]
     target = chosen.target() if chosen.target else None
     with warnings.catch_warnings():

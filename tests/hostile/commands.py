@@ -83,6 +83,7 @@ COMMANDS: dict[tuple[str, ...], dict[str, tuple[str | None, ...]]] = {
         "--fit": ("linear", "gains", "added_mass_full"), "--bound": ("0.1",), "--segment": ("10",), "--step": ("0.05",),
         "--current": ("0,0,0",), "--out": ("f.toml",), "--plot": ("f.png",), "--no-plot": (None,), "--force": (None,),
     },
+    ("validate", "bluerov2_heavy", "--references", "trials.toml"): {"--json": (None,), "--out": ("page",)},
     ("manoeuvre", "otter", "zig-zag"): PLOTLESS,
     ("manoeuvre", "remus100", "decay"): PLOTLESS,
     ("sea", "--hs", "1", "--tp", "7", "--seconds", "100"): {
@@ -99,6 +100,19 @@ COMMANDS: dict[tuple[str, ...], dict[str, tuple[str | None, ...]]] = {
 
 All that fly fly the same vehicle, or each would be compiled anew.
 """
+
+TRIALS = """
+[[trial]]
+name = "half ahead"
+manoeuvre = "steady"
+wrench = [20.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+duration = 5.0
+[[trial.expected]]
+quantity = "surge_m_s"
+at_least = 0.1
+source = "none: what it may be is wide enough"
+"""
+"""Of a vehicle that it holds for; the command says with its exit status where numbers differ."""
 
 NUMBER_TEXTS = ("", "x", "nan", "inf", "-1", "0", "1e308", "1e-308", "1" * 400, "0.5", "1.5", "-0.0", "2")
 
@@ -140,6 +154,7 @@ def run_in_empty_folder(arguments: list[str]) -> Any:
     """Run a command; raise what it raised, or a `CommandError` with its message if it ended with one."""
     before, folder = Path.cwd(), Path(tempfile.mkdtemp())
     preset(folder, "ppo", 64)
+    (folder / "trials.toml").write_text(TRIALS, encoding="utf-8")
     os.chdir(folder)
     try:
         result = CliRunner().invoke(app, arguments)

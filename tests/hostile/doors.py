@@ -19,6 +19,7 @@ from hostile.acting import (
     vector_target,
 )
 from hostile.commands import drawn_command
+from hostile.files import drawn_log_file, drawn_mesh_file, drawn_reference_file
 from hostile.folders import drawn_run_folder
 from hostile.making import (
     MADE,
@@ -58,6 +59,9 @@ DOORS: dict[str, Door] = {
     "vehicle file": Door(drawn_vehicle_file),
     "force file": Door(drawn_force_file),
     "radiation file": Door(drawn_radiation_file),
+    "mesh file": Door(drawn_mesh_file),
+    "log file": Door(drawn_log_file),
+    "reference file": Door(drawn_reference_file),
     "run folder": Door(drawn_run_folder),
     "command": Door(drawn_command),
     "body": Door(drawn_body_call, body_target),

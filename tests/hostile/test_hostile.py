@@ -6,17 +6,17 @@ from support.sweeps import sweep
 from hostile.cases import judged
 from hostile.doors import DOORS
 
-LONG = ("environment", "vector environment", "radiation file", "run folder", "command")
+LONG = ("environment", "vector environment", "radiation file", "mesh file", "run folder", "command")
 """Doors whose cases take long: something is composed, read or trained anew for each."""
 
 
-FOUND = (6021799, 6024489, 6027236, 6050762)
-"""Seeds of cases that once ended badly."""
+FOUND = ((6021799, "run folder"), (6024489, "vehicle"), (6027236, "vehicle"))
+"""Seeds and doors of cases that once ended badly. They mean the same as long as these doors are drawn the same way."""
 
 
-@pytest.mark.parametrize("seed", FOUND)
-def test_what_the_campaign_found_is_mended(seed):
-    verdict = judged(seed)
+@pytest.mark.parametrize(("seed", "door"), FOUND)
+def test_what_the_campaign_found_is_mended(seed, door):
+    verdict = judged(seed, door)
     assert verdict.outcome in ("refused", "accepted"), verdict
 
 

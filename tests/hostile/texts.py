@@ -58,6 +58,48 @@ def changed_table(rng: Rng, text: str) -> str:
     return "\n".join(lines)
 
 
+def changed_text(rng: Rng, text: str) -> str:
+    """A TOML file with a line of it changed."""
+    lines = text.splitlines()
+    line, other = (int(rng.integers(len(lines))) for _ in range(2))
+    kind = rng.integers(9)
+    if kind == 0:
+        del lines[line]
+    elif kind == 1:
+        lines.insert(line, lines[other])
+    elif kind == 2:
+        lines[line] = "".join(rng.permutation(list(lines[line])))
+    elif kind == 3:
+        replaced = (
+            "1e308",
+            "-1e200",
+            "nan",
+            "inf",
+            "1e-200",
+            "true",
+            '"text"',
+            "[]",
+            "{}",
+            "1979-05-27",
+            "0",
+            "9" * 400,
+        )
+        name = lines[line].split("=")[0]
+        lines[line] = f"{name}= {replaced[rng.integers(len(replaced))]}"
+    elif kind == 4:
+        lines[line] = f"deep = {'[' * 2000}{']' * 2000}"
+    elif kind == 5:
+        place = int(rng.integers(len(lines[line]) + 1))
+        lines[line] = lines[line][:place] + chr(rng.integers(1, 0x2FF)) + lines[line][place:]
+    elif kind == 6:
+        lines = lines[: line + 1]
+    elif kind == 7:
+        lines[line] = lines[line].replace("0", "00").replace("1", "-1")
+    else:
+        lines[line] = lines[line].replace(".", "e")
+    return "\n".join(lines) or "x"
+
+
 def changed_bytes(rng: Rng, content: bytes) -> bytes:
     """Bytes of which some are changed, cut off, put twice or added."""
     place = int(rng.integers(len(content) + 1))

@@ -29,7 +29,7 @@ def test_mass_and_damping_stay_positive(name, groups):
         groups = groups[1:]
     parameters = parameters_of(nominal, groups)
 
-    @settings(max_examples=25, deadline=None, derandomize=True)
+    @settings(max_examples=25, derandomize=True)
     @given(THETAS)
     def physical(thetas):
         theta = np.array(thetas)[: len(parameters)]

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from support.bodies import make_body, random_damping, random_inertia, random_quaternion
 
 from dq_marine.errors import StepNotSolvableError
+from dq_marine.integrator.step import REFUSALS
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -65,7 +66,10 @@ def test_fast_spins_about_any_axis(spin):
         assert np.allclose(body.spatial_momentum, before, rtol=0, atol=1e-10 * np.abs(before).max())
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
+@example(
+    seed=533, log_condition=5.0, log_mass=0.0, log_speed=1.0, scheme="midpoint"
+)  # refused for its energy
 @given(
     seeds,
     st.floats(0.0, 8.0),
@@ -89,14 +93,14 @@ def test_any_condition_any_mass_any_speed(seed, log_condition, log_mass, log_spe
         body.step(steps=20)
     except StepNotSolvableError as error:
         assert np.array_equal(body.get_state(), before)
-        assert error.reason in ("not_converged", "wrong_branch", "not_finite")
+        assert error.reason in REFUSALS.values()
     assert np.isfinite(body.get_state()).all()
     reach = np.array([1.0] * 3 + [1e7] * 3)
     scale = np.linalg.norm(momentum[:3]) + np.linalg.norm(body.state.momentum.angular)
     assert (np.abs(body.spatial_momentum - momentum) <= 1e-9 * scale * reach).all()
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(seeds, st.floats(-2.0, 6.0), st.sampled_from([2, 4]))
 def test_stiff_damping_with_any_inertia(seed, log_stiffness, order):
     """H lambda from 1e-2 to 1e6: the body comes to rest, or as near as its softest axis lets it."""

@@ -35,7 +35,7 @@ def pose_numbers(pose):
     return np.array([*pose.real, *pose.dual])
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seed=st.integers(0, 2**32 - 1), h=st.floats(0.01, 0.2))
 def test_with_one_node_it_is_the_midpoint_scheme(seed, h):
     rng = np.random.default_rng(seed)
@@ -105,7 +105,7 @@ def test_a_body_that_moves_along_its_spin_axis_keeps_its_velocity(stages):
     assert angle == pytest.approx(0.3, abs={2: 3e-6, 3: 2e-9, 4: 1e-12}[stages])
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(seed=st.integers(0, 2**32 - 1), decades=st.floats(0.0, 4.0))
 def test_any_inertia_agrees_with_equations_written_apart(seed, decades):
     rng = np.random.default_rng(seed)

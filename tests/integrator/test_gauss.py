@@ -117,7 +117,7 @@ def test_the_fine_run_agrees_with_the_midpoint_drift_of_order_eight():
 # Invariants
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(seed=st.integers(0, 2**32 - 1), condition=st.floats(0.0, 4.0))
 def test_free_bodies_of_any_inertia_keep_momentum_and_energy(seed, condition):
     rng = np.random.default_rng(seed)

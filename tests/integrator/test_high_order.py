@@ -98,7 +98,7 @@ def undamped():
 
 
 @pytest.mark.parametrize("order", sweep([2, 4, 6, 8], plain=[4]))
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=5)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_time_runs_backwards_and_returns_to_the_start(order, seed):
     rng = np.random.default_rng(seed)

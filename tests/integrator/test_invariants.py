@@ -13,7 +13,7 @@ def start(rng, body):
     body.reset(rng.normal(size=3), random_quaternion(rng), rng.normal(size=6))
 
 
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=5)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_spatial_momentum_and_energy_over_1e5_steps(seed):
     rng = np.random.default_rng(seed)
@@ -59,7 +59,7 @@ def test_unit_constraints_over_1e6_steps():
     assert abs(real @ dual) < 1e-14 * max(1.0, np.linalg.norm(dual))
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_reversing_the_velocity_returns_to_the_start(seed):
     """The step is symmetric: with the velocity reversed, the body retraces its way.
@@ -77,7 +77,7 @@ def test_reversing_the_velocity_returns_to_the_start(seed):
     assert min(np.linalg.norm(body.quaternion_body_to_ned - s * q) for s in (1, -1)) < 1e-10
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_world_frame_is_arbitrary(seed):
     """Turning and shifting the world turns and shifts the free trajectory."""

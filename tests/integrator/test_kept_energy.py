@@ -91,7 +91,7 @@ def test_an_ellipsoid_that_multiplied_its_energy():
     assert body.fallback_steps == 1
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(seed=st.integers(0, 2**32 - 1), spin=st.floats(0.3, 3.0))
 def test_steps_of_about_a_radian(seed, spin):
     """A turn of 0.3 to 3 rad, where plain Newton finds solutions of the wrong energy on the right branch."""

@@ -31,7 +31,7 @@ def draw(seed, condition=20.0, size=0.3):
     return inertia_term(m), t, a, b
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seeds, st.floats(0.0, 6.0))
 def test_jacobian_is_the_complex_step_derivative(seed, log_condition):
     """Every operation of the residual is analytic, so a complex step is exact to round-off."""
@@ -50,7 +50,7 @@ def test_jacobian_is_the_complex_step_derivative(seed, log_condition):
     )
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(seeds)
 def test_solution_is_stationary_in_the_discrete_action(seed):
     """The residual is the constraint force of T_d = (2/h)[2t; y]^T M [2t; y].
@@ -120,7 +120,7 @@ def test_momentum_transport_is_coadjoint(pose, increment, angular, linear):
     assert np.allclose(np.concatenate(after), np.concatenate(before), atol=1e-9)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seeds, st.floats(-4.0, 0.0))
 def test_solver_converges_quadratically_to_round_off(seed, log_size):
     inertia, _, a, b = draw(seed, size=10.0**log_size * 0.3)

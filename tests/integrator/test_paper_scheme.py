@@ -47,7 +47,7 @@ def complex_step(function, x):
 # The reduced form
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seeds)
 @example(23493)
 def test_three_and_six_unknowns_have_the_same_solution(seed):
@@ -65,7 +65,7 @@ def test_three_and_six_unknowns_have_the_same_solution(seed):
     assert np.allclose(np.concatenate(carried), -2.0 / h * back, rtol=0, atol=1e-11)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seeds, st.floats(0.0, 6.0))
 def test_the_reduced_jacobian_is_the_complex_step_derivative(seed, log_condition):
     m, x, a, b = draw(seed, condition=10.0**log_condition)
@@ -93,7 +93,7 @@ def test_the_increment_is_a_unit_dual_quaternion(seed):
     assert np.dot(f.real, f.dual) == pytest.approx(0.0, abs=1e-12)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(seeds)
 def test_spatial_momentum_is_exact(seed):
     rng = np.random.default_rng(seed)
@@ -108,7 +108,7 @@ def test_spatial_momentum_is_exact(seed):
 # Errata: each test fails with the printed form
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seeds)
 def test_erratum_jacobian_lost_terms(seed):
     """dA/dPsi: the paper lacks S(Psi) M22 - S(M22 Psi), which vanish only for M22 = m 1."""
@@ -124,7 +124,7 @@ def test_erratum_jacobian_lost_terms(seed):
     assert np.abs(paper.lost_terms(isotropic, x)).max() < 1e-14
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seeds)
 def test_erratum_gradient_of_the_dual_scalar(seed):
     """d(-Psi.Phi/c)/dPhi: the first term's sign is wrong in print, for every body."""
@@ -140,7 +140,7 @@ def test_erratum_gradient_of_the_dual_scalar(seed):
     assert gap > 1e-3 * np.linalg.norm(np.cross(phi, np.cross(phi, psi)))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seeds)
 def test_the_simplified_jacobian_about_the_centre_of_mass(seed):
     rng = np.random.default_rng(seed)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.solids import ellipsoid
 
-from dq_marine.meshes.potential_flow import PotentialFlow
+from dq_marine.meshes.potential_flow import PotentialFlow, untold
 from dq_marine.meshes.surface import enclosed
 from dq_marine.meshes.waterline import wet_part
 from dq_marine.vehicles.analysis.lamb import added_mass_coefficients
@@ -19,16 +19,12 @@ DENSITY = 1025.0
 NOWHERE = np.zeros(3)
 
 
-def unheard(what: str, done: int, total: int) -> None:
-    """Progress that nobody watches."""
-
-
 def unbounded(panels: np.ndarray, reference: np.ndarray = NOWHERE, density: float = DENSITY) -> np.ndarray:
-    return PotentialFlow(panels, reference, density, 9.81, False, unheard).added_mass()
+    return PotentialFlow(panels, reference, density, 9.81, False, untold).added_mass()
 
 
 def afloat(panels: np.ndarray) -> PotentialFlow:
-    return PotentialFlow(panels, NOWHERE, DENSITY, 9.81, True, unheard)
+    return PotentialFlow(panels, NOWHERE, DENSITY, 9.81, True, untold)
 
 
 @pytest.mark.parametrize("axes", [(1.0, 1.0, 1.0), (2.0, 0.5, 0.5), (1.5, 1.0, 0.6)])

@@ -21,14 +21,10 @@ from dq_marine.vehicles import Vehicle, load_vehicle
 WITHOUT_SOLVER = "needs the extra `bem`"
 
 
-def unheard(what: str, done: int, total: int) -> None:
-    """Progress that nobody watches."""
-
-
 def made(mesh: Path, choices: Choices) -> Vehicle:
     """The vehicle as its file has it."""
     file = mesh.with_suffix(".toml")
-    built, _ = vehicle_from_mesh(mesh, file, choices, progress=unheard)
+    built, _ = vehicle_from_mesh(mesh, file, choices)
     assert load_vehicle(file) == built.vehicle
     file.unlink()
     return built.vehicle
@@ -99,7 +95,7 @@ def test_radiation_goes_beside_the_file(tmp_path: Path) -> None:
     pytest.importorskip("capytaine", reason=WITHOUT_SOLVER)
     mesh, file = write_stl(tmp_path / "barge.stl", box(10.0, 4.0, 2.0)), tmp_path / "barge.toml"
     choices = Choices(draft=1.0, panels=150, frequencies=3)
-    _, files = vehicle_from_mesh(mesh, file, choices, progress=unheard)
+    _, files = vehicle_from_mesh(mesh, file, choices)
     assert [one.name for one in files] == ["barge.toml", "barge_radiation.csv"]
     loaded = load_vehicle(file).radiation
     assert loaded is not None
@@ -109,7 +105,7 @@ def test_radiation_goes_beside_the_file(tmp_path: Path) -> None:
         np.testing.assert_array_equal(matrices, matrices.transpose(0, 2, 1))
         assert (np.linalg.eigvalsh(matrices) > -0.02 * np.trace(matrices, axis1=1, axis2=2)[:, None]).all()
     with pytest.raises(InvalidInputError, match="exists; choose another name, or replace it with --force"):
-        vehicle_from_mesh(mesh, file, choices, progress=unheard)
+        vehicle_from_mesh(mesh, file, choices)
 
 
 CUBE = box(1.0, 1.0, 1.0)
@@ -138,7 +134,7 @@ def test_bad_meshes_are_refused_and_nothing_is_written(
 ) -> None:
     mesh = write_stl(tmp_path / "hull.stl", corners)
     with pytest.raises(InvalidInputError, match=message):
-        vehicle_from_mesh(mesh, tmp_path / "hull.toml", Choices(**options), progress=unheard)
+        vehicle_from_mesh(mesh, tmp_path / "hull.toml", Choices(**options))
     assert list(tmp_path.iterdir()) == [mesh]
 
 
@@ -156,6 +152,10 @@ def test_bad_meshes_are_refused_and_nothing_is_written(
         ({"panels": 50}, "panels = 50 is below 100"),
         ({"limits": (1.0, 0.0, 0.0, 0.0, 0.0, -1.0)}, "has a number below 0"),
         ({"center_of_mass": (1.0, 0.0)}, "center_of_mass has shape"),
+        ({"gravity": "9.81"}, "gravity = '9.81' is not numeric"),
+        ({"gravity": 900.0}, "gravity = 900"),
+        ({"afloat": [1, 2]}, r"afloat = \[1, 2\]; give True or False"),
+        ({"name": 3}, "name = 3; give a text"),
     ],
 )
 def test_choices_that_cannot_be_are_refused(options: dict[str, Any], message: str) -> None:
@@ -167,7 +167,7 @@ def test_without_capytaine_the_extra_is_named(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setitem(sys.modules, "capytaine", None)
     mesh = write_stl(tmp_path / "hull.stl", CUBE)
     with pytest.raises(MissingDependencyError, match=r'pip install "dq-marine\[bem\]"'):
-        vehicle_from_mesh(mesh, tmp_path / "hull.toml", Choices(), progress=unheard)
+        vehicle_from_mesh(mesh, tmp_path / "hull.toml", Choices())
     assert list(tmp_path.iterdir()) == [mesh]
 
 
@@ -177,7 +177,7 @@ def test_an_added_mass_that_no_body_has_is_refused(tmp_path: Path, monkeypatch: 
         found = np.diag(diagonal)[None]
         monkeypatch.setattr(solver.PotentialFlow, "_solved", lambda *_, found=found, **__: (found, found))
         with pytest.raises(InvalidInputError, match="gives an added mass that is not positive"):
-            vehicle_from_mesh(mesh, tmp_path / "hull.toml", Choices(), progress=unheard)
+            vehicle_from_mesh(mesh, tmp_path / "hull.toml", Choices())
     assert list(tmp_path.iterdir()) == [mesh]
 
 
@@ -217,4 +217,4 @@ def test_the_command_writes_a_file_that_checks(tmp_path: Path, monkeypatch: pyte
     assert (again.exit_code, "exists; choose another name" in again.stderr) == (1, True)
     assert CliRunner().invoke(app, [*arguments, "--force"]).exit_code == 0
     wrong = CliRunner().invoke(app, ["vehicles", "from-mesh", "rov.stl", "x.toml", "--inertia", "1,b"])
-    assert (wrong.exit_code, "give numbers with commas between" in wrong.stderr) == (1, True)
+    assert (wrong.exit_code, "--inertia: the value is neither TOML nor JSON" in wrong.stderr) == (1, True)

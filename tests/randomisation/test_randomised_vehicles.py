@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -82,7 +82,6 @@ def wide_randomisations(draw):
     )
 
 
-@settings(deadline=None)
 @given(vehicles, wide_randomisations(), seeds)
 def test_any_randomisation_draws_physical_vehicles(vehicle, randomisation, seed):
     drawn = randomisation.draw(vehicle, seed)

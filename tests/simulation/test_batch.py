@@ -254,7 +254,7 @@ def test_a_body_whose_force_overflows_is_refused():
     assert assert_fare_alike(batch, singles, np.zeros((9, 6)), 1) == {4: "not_finite"}
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seeds, st.floats(-1.0, 2.0))
 def test_extreme_bodies_fare_as_each_alone(seed, log_speed):
     """Solved, solved by the fallback or refused: with the same bits."""
@@ -323,7 +323,6 @@ def test_a_state_is_restored_bit_for_bit():
     assert batch.get_state().shape == (7, 15)
 
 
-@settings(deadline=None)
 @given(seeds)
 def test_bodies_are_placed_by_rows_as_each_alone(seed):
     rng, scene = np.random.default_rng(seed), Scene(current=CURRENT)

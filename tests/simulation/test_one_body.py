@@ -22,7 +22,7 @@ from dq_marine.simulation.scene import Scene
 seeds = st.integers(0, 2**32 - 1)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seeds)
 def test_reset_round_trip(seed):
     rng = np.random.default_rng(seed)
@@ -35,7 +35,7 @@ def test_reset_round_trip(seed):
     assert body.time == 0.0
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seeds)
 def test_a_current_is_exactly_a_moving_frame(seed):
     """In a current the body does what it does in still water, seen from a frame that moves with the water."""
@@ -140,7 +140,7 @@ def test_a_step_beyond_the_fallback_is_refused_by_name():
     again.step(steps=2)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(seeds, st.floats(0.0, 1.7), st.sampled_from([MIDPOINT, PAPER]))
 @example(524289, 1.2143266763586609, PAPER)  # Newton's method leaves for 1e148, where a determinant is zero
 def test_what_newton_accepts_is_on_the_branch_from_rest(seed, log_size, scheme):
@@ -172,7 +172,7 @@ def pose_after(scheme, equation, pose):
     return dual_multiply(pose, scheme.increment(equation))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(seeds, st.floats(-3.0, 300.0))
 def test_never_a_nan(seed, log_size):
     """Whatever the wrench and velocity: a finite state, or a refusal that changes nothing."""
@@ -201,7 +201,7 @@ def test_a_new_body_is_where_reset_puts_it():
 
 @pytest.mark.parametrize("scheme", [MIDPOINT, PAPER], ids=["midpoint", "paper"])
 @given(seed=st.integers(0, 2**32 - 1), log_push=st.floats(-12.0, 2.0), log_noise=st.floats(-18.0, -8.0))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_a_push_without_a_moment_is_solved(scheme, seed, log_push, log_noise):
     """The momentum that translation brings in by coupling is then undone by rotation but for round-off."""
     rng = np.random.default_rng(seed)

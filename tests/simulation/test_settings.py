@@ -123,7 +123,7 @@ valid = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(valid)
 def test_json_tells_all(keywords):
     made = Settings(**keywords)
@@ -133,7 +133,7 @@ def test_json_tells_all(keywords):
     assert pickle.loads(pickle.dumps(made)) == made
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(
     valid,
     st.sampled_from([{"substeps": 21}, {"control_period": 2.0}, {"vehicle_seed": 2**41}, {"gravity": 9.6}]),

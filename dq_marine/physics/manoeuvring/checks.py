@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from dq_marine.physics.fields import MOTIONS
 from dq_marine.physics.implausible import Implausible
 from dq_marine.physics.manoeuvring.build import own_axis_drag
 from dq_marine.physics.manoeuvring.tables import Manoeuvring
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
 
 SIZE_RANGE = (0.5, 1.2)  # length between perpendiculars and draft, over overall length and height
 LONGEST_LEVER = 1.5  # of propeller and rudder, over the length
-MOTIONS = {0: "surge", 1: "sway", 5: "yaw"}
+IN_THE_PLANE = (0, 1, 5)  # surge, sway and yaw
 
 
 def check_manoeuvring(vehicle: Vehicle) -> None:
@@ -61,12 +62,12 @@ def _check_levers(tables: Manoeuvring) -> None:
 
 
 def _check_resistance(vehicle: Vehicle) -> None:
-    for axis, motion in MOTIONS.items():
+    for axis in IN_THE_PLANE:
         drag = own_axis_drag(vehicle, axis)
         if drag <= 0.0:
             raise Implausible(
-                f"manoeuvring.hull.{motion}",
+                f"manoeuvring.hull.{MOTIONS[axis]}",
                 f"{-drag:.4g} at unit speed",
-                f"at its limits the hull drives {motion} instead of resisting it",
+                f"at its limits the hull drives {MOTIONS[axis]} instead of resisting it",
                 "check the signs; the published derivatives Y'_v, Y'_vvv, N'_r and N'_rrr are negative",
             )

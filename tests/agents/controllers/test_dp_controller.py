@@ -94,7 +94,7 @@ def test_poles_are_where_the_preset_puts_them() -> None:
         np.testing.assert_allclose(polynomial, wanted, rtol=1e-12)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(st.lists(st.floats(-6.0, 6.0), min_size=3, max_size=3), st.floats(-3.1, 3.1))
 def test_integral_does_not_wind_up(goal_body: list[float], turn: float) -> None:
     """Held fast for two minutes, it wants at most T_t k_i reach more acceleration than the actuators give."""

@@ -38,7 +38,7 @@ def test_a_refused_step_ends_the_episode_and_says_why():
     assert np.isfinite(reward)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(seed=st.integers(0, 2**31), log_speed=st.floats(-1.0, 150.0))
 def test_no_nan_ever_leaves(seed, log_speed):
     rng = np.random.default_rng(seed)

@@ -95,7 +95,7 @@ def test_gym_make_truncates_after_30_s(env):
 # Determinism and state
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(seed=st.integers(0, 2**31))
 def test_an_episode_follows_from_its_seed_bit_for_bit(seed):
     one, two = StationKeepingEnv(), StationKeepingEnv()
@@ -182,7 +182,7 @@ def test_observation_is_what_it_says():
     assert np.allclose(observation[15:], now.inv().apply(integral), atol=1e-6)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seed=st.integers(0, 2**31))
 def test_a_quaternions_sign_is_not_seen(seed):
     rng = np.random.default_rng(seed)

@@ -83,7 +83,7 @@ def test_a_whole_episode_and_the_next_are_the_same():
     assert_flights_agree(gym.make_vec(ID, num_envs=3), Separate(3), 320, scale=0.3)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(seed=st.integers(0, 2**100))
 def test_an_episode_follows_from_its_seed(seed):
     assert_flights_agree(gym.make_vec(ID, num_envs=5), Separate(5), 10, seed=seed)
@@ -167,7 +167,7 @@ def test_the_end_by_a_refusal_is_kept_in_the_final_info():
     assert all(np.array_equal(own[name], single[name]) for name in single)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(seed=st.integers(0, 2**31), logs=st.lists(st.floats(-1.0, 150.0), min_size=7, max_size=7))
 def test_extreme_speeds_are_those_of_separate_environments(seed, logs):
     random = np.random.default_rng(seed)

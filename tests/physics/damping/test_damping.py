@@ -74,7 +74,7 @@ def test_quadratic_damping_at_high_speed(speed):
     assert body.velocity_body[0] == pytest.approx(exact, rel=0.05)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(seed=st.integers(0, 2**32 - 1), magnitude=st.floats(-3.0, 6.0))
 def test_a_kick_without_a_wrench_only_takes_energy(seed, magnitude):
     """Whatever the damping matrix, gyroscopic parts included."""
@@ -93,7 +93,7 @@ def test_a_kick_without_a_wrench_only_takes_energy(seed, magnitude):
 
 
 @pytest.mark.parametrize("order", [2, 4])
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_kicks_of_diagonal_and_full_damping_agree(order, seed):
     """A constant D through the quadratic kicks with vanishing coefficients."""
@@ -117,7 +117,7 @@ def kicked(damping, kick, m, duration, momentum, wrench):
     return kick(parameters, damping.matrices, inertia_term(m), momentum, wrench)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(seed=st.integers(0, 2**32 - 1), magnitude=st.floats(-3.0, 3.0))
 def test_the_kick_of_linear_damping_is_exact(seed, magnitude):
     """Against SciPy's matrix exponential of (mu, 1)' = [[-D M^-1, F], [0, 0]] (mu, 1)."""

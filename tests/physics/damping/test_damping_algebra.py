@@ -47,7 +47,7 @@ def random_term(rng, couplings=8):
     return term, drag
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seed=seeds)
 def test_the_drag_is_the_tensors_and_the_strips(seed):
     rng = np.random.default_rng(seed)
@@ -57,7 +57,7 @@ def test_the_drag_is_the_tensors_and_the_strips(seed):
     assert np.allclose(to_fossen(got), drag(nu), rtol=0, atol=1e-11)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seed=seeds)
 def test_the_slope_is_the_exact_derivative(seed):
     """Between kinks D(chi) chi is quadratic but for blends, and a central difference of any width is its derivative.
@@ -90,7 +90,7 @@ def nearest_kink(term, nu):
     return min(moving)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(seed=seeds, nu=st.tuples(*[numbers] * 6))
 def test_strips_only_take_energy(seed, nu):
     rng = np.random.default_rng(seed)
@@ -120,7 +120,7 @@ def test_many_strips_are_the_integral_over_the_hull(speed, rate):
     assert errors[1] < max(errors[0] / 50.0, 1e-12)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(seed=seeds)
 def test_unsymmetric_systems_are_solved(seed):
     """M + h D with a D of couplings alone, as lift makes it, small enough for the linear block to be regular."""

@@ -54,7 +54,7 @@ def potential(vehicle, depth, rotation, cells):
 # Statics
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     depth=st.floats(-1.5, 1.5),
     angles=st.tuples(st.floats(-3.1, 3.1), st.floats(-1.5, 1.5), st.floats(-3.1, 3.1)),

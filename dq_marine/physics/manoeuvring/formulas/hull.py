@@ -35,7 +35,7 @@ class LateralPolynomial(NamedTuple):
     rrr: float
 
 
-class Validity(NamedTuple):
+class PolynomialRange(NamedTuple):
     """Where the polynomials hold: |v'| up to `drift`, the sine of an angle, `ahead` its cosine; |r'| up to `turn`."""
 
     drift: float
@@ -61,7 +61,7 @@ class ManoeuvringHull(NamedTuple):
     surge: SurgePolynomial
     sway: LateralPolynomial
     yaw: LateralPolynomial
-    validity: Validity
+    validity: PolynomialRange
     length: float
     pressure: float
     munk: float
