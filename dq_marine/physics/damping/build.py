@@ -139,9 +139,11 @@ class DampingTerm(NamedTuple):
         if not self.names or (self.l_stable and not self._grows):
             return ()
         coefficients = spatial(self.quadratic)
-        if self._is_diagonal and not self._is_coupled:
-            return DiagonalDamping(spatial(np.diag(self.linear).copy()), coefficients)
-        own = FullDamping(matrix6(angular_first(self.linear)), coefficients)
+        own: DiagonalDamping | FullDamping
+        if self._is_diagonal:
+            own = DiagonalDamping(spatial(np.diag(self.linear).copy()), coefficients)
+        else:
+            own = FullDamping(matrix6(angular_first(self.linear)), coefficients)
         if not self._is_coupled:
             return own
         present = [
@@ -196,7 +198,7 @@ class DampingTerm(NamedTuple):
         )
         shapes = (StripShape(strips.plane, strips.number) for strips in self.strips)
         axes = (ANGULAR_FIRST[term.axis] for term in self.blends)
-        return DampingStructure(tuple(couplings), tuple(shapes), tuple(axes))
+        return DampingStructure(tuple(couplings), tuple(shapes), tuple(axes), self._is_diagonal)
 
     def _kick_parameters(self, duration: float) -> UndampedKick | LinearKick | QuadraticKick:
         if self._grows:
