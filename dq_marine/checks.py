@@ -54,8 +54,13 @@ def shown(value: Any) -> str:
         text = repr(value)
     except Exception as error:  # the value's own __repr__ may do anything
         text = f"<{type(value).__name__}, whose repr fails: {type(error).__name__}>"
-    text = "".join(character if character.isprintable() else "?" for character in text)
+    text = printable(text)
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."
+
+
+def printable(text: str) -> str:
+    """Return a text with a question mark for each character that may act on a terminal, such as an escape."""
+    return "".join(character if character.isprintable() else "?" for character in text)
 
 
 def one_of(name: str, value: Any, choices: Iterable[Any]) -> Any:

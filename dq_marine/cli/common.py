@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import sys
 from typing import Any
 
@@ -12,10 +13,25 @@ from rich.console import Console
 from rich.text import Text
 from typer.core import TyperGroup
 
+from dq_marine.checks import printable
 from dq_marine.errors import DQMarineError
 
-console = Console()
-error_console = Console(stderr=True)
+
+class SafeConsole(Console):
+    """A console on which what came in from outside, such as the name of a file, cannot act on the terminal."""
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        """Return the text as it is shown."""
+        return super().render_str(safe(text), **options)
+
+
+def safe(text: str) -> str:
+    """Return the text with only its lines and tabs left of what is not printed."""
+    return "".join(part if part in "\n\t" else printable(part) for part in re.split("([\n\t])", text))
+
+
+console = SafeConsole()
+error_console = SafeConsole(stderr=True)
 
 HELP_OPTIONS = {"help_option_names": ["-h", "--help"]}
 
@@ -46,7 +62,7 @@ class Commands(TyperGroup):
 
 def _say(message: str) -> None:
     with contextlib.suppress(OSError):  # standard error may be gone, too
-        error_console.print(Text.assemble(("Error: ", "bold red"), message), soft_wrap=True)
+        error_console.print(Text.assemble(("Error: ", "bold red"), safe(message)), soft_wrap=True)
 
 
 def _drop_what_is_unwritten() -> None:

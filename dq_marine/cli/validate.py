@@ -13,6 +13,7 @@ from dq_marine.cli.common import console, error_console, examples
 
 if TYPE_CHECKING:
     from dq_marine.validation import Comparison, References
+    from dq_marine.vehicles import Vehicle
 
 EXAMPLES = examples(
     "dq-marine validate osv83",
@@ -50,11 +51,15 @@ def validate(
     "zig-zag", "stopping" or "decay") and what that takes, and in it [[trial.expected]] with quantity, value and within,
     or at_least and at_most, and source. Those of the catalogue, in dq_marine/validation/references, are examples.
     """
+    from dq_marine.util.files import with_folder
     from dq_marine.validation import Verdict
 
     comparisons, silences = [], {}
-    for name, own in _chosen(vehicles or [], references):
-        comparisons.append(_compared(name, own))
+    chosen = _chosen(vehicles or [], references)
+    if out is not None:
+        with_folder(out / "README.md")
+    for name, vehicle, own in chosen:
+        comparisons.append(_compared(name, vehicle, own))
         silences[name] = own.silence
         if not json:
             _show(comparisons[-1], own.silence)
@@ -73,25 +78,24 @@ def validate(
         raise typer.Exit(1)
 
 
-def _chosen(vehicles: list[str], references: Path | None) -> list[tuple[str, References]]:
-    """Return names of vehicles with their references."""
+def _chosen(names: list[str], references: Path | None) -> list[tuple[str, Vehicle, References]]:
+    """Return vehicles by name with their references; all are there before the first is simulated."""
     from dq_marine.errors import InvalidInputError
     from dq_marine.validation import load_references, validated_vehicles
-
-    if references is None:
-        return [(name, load_references(name)) for name in vehicles or validated_vehicles()]
-    if len(vehicles) != 1:
-        raise InvalidInputError(
-            f"--references is of one vehicle, and {len(vehicles)} are given; give its name or file"
-        )
-    return [(vehicles[0], load_references(references))]
-
-
-def _compared(name: str, references: References) -> Comparison:
-    from dq_marine.validation import compared
     from dq_marine.vehicles import load_vehicle
 
-    vehicle = load_vehicle(name)
+    if references is None:
+        return [(name, load_vehicle(name), load_references(name)) for name in names or validated_vehicles()]
+    if len(names) != 1:
+        raise InvalidInputError(
+            f"--references is of one vehicle, and {len(names)} are given; give its name or file"
+        )
+    return [(names[0], load_vehicle(names[0]), load_references(references))]
+
+
+def _compared(name: str, vehicle: Vehicle, references: References) -> Comparison:
+    from dq_marine.validation import compared
+
     title = escape(vehicle.name)
     with error_console.status(title) as status:
         return compared(

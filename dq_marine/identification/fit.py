@@ -46,6 +46,9 @@ SETTLED = 0.1
 SEGMENTS = 30
 """Of a log, unless they would be shorter than `SHORTEST` or longer than `LONGEST`."""
 
+MOST_STEPS = 1000
+"""Of the integrator from one instant of the log to the next, of which one would do."""
+
 SHORTEST, LONGEST = 5.0, 100.0
 ACCURATE_STEP = 0.05
 """Step size over the largest step of the vehicle's sheet."""
@@ -199,7 +202,7 @@ def _segments(vehicle: Vehicle, log: Log, conditions: Conditions) -> SegmentedLo
         speed = float(np.nanmax(np.abs(log.velocity_body[:, :3])))
         step = ACCURATE_STEP * vehicle_sheet(vehicle, speed=max(speed, 1e-3)).largest_step
     else:
-        step = finite_number("step", conditions.step, above=0.0)
+        step = finite_number("step", conditions.step, least=log.period / MOST_STEPS)
     current = finite_array("current", conditions.current, 3)
     return SegmentedLog(log, vehicle, length, min(step, log.period), current.tolist())
 

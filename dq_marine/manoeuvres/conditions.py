@@ -8,6 +8,9 @@ from dq_marine.checks import finite_number, one_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.actuators.build import ACTUATIONS
 
+LEAST_STEP = 1e-5
+"""Of the integrator [s]: with a smaller one, minutes of a manoeuvre take hours."""
+
 
 @dataclass(frozen=True)
 class Conditions:
@@ -30,7 +33,7 @@ class Conditions:
     def __post_init__(self) -> None:
         fraction("throttle", self.throttle)
         if self.step is not None:
-            finite_number("step", self.step, above=0.0)
+            finite_number("step", self.step, least=LEAST_STEP)
         if self.actuation is not None:
             one_of("actuation", self.actuation, ACTUATIONS)
 

@@ -32,6 +32,7 @@ RELEASE_HEAVE = 0.05
 """Heave at the release, over the length of the vehicle."""
 
 SAMPLES = 200
+MOST_SAMPLES = 20_000
 """Smallest number of samples per period."""
 
 GONE = 0.01
@@ -117,7 +118,7 @@ def decay(
     period = 2.0 * math.pi / natural_frequency(vehicle, axis)
     if step is None:
         step = rounded_down(min(period / SAMPLES, ACCURATE_STEP * vehicle_sheet(vehicle).largest_step))
-    scene = Scene(vehicle, step=finite_number("step", step, above=0.0))
+    scene = Scene(vehicle, step=finite_number("step", step, least=period / MOST_SAMPLES))
     series = released(scene, axis, release, periods * period, watch)
     displacement = displacement_of(series, axis)
     found = decrement_of(series.time, displacement, GONE * release)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from dq_marine.backend.control_period import compiled_control_period
 from dq_marine.backend.packing import structure_type
 from dq_marine.checks import finite_number, shown
-from dq_marine.envs.core.action_mapping import action_mapping_of
+from dq_marine.envs.core.action_mapping import ActionMapping, action_mapping_of
 from dq_marine.envs.core.currents import check_current
 from dq_marine.envs.core.definition import EpisodeContext, Observed, TaskDefinition
 from dq_marine.envs.core.goals import check_goals
-from dq_marine.envs.core.observation import places_of
+from dq_marine.envs.core.infos import Infos
+from dq_marine.envs.core.observation import Places, places_of
 from dq_marine.envs.core.registry import arrived, task_named, tasks_suiting, travelling
 from dq_marine.envs.core.rewards import checked_extra_rewards
 from dq_marine.envs.core.start import at_origin, checked_options
@@ -35,6 +36,32 @@ from dq_marine.task.start import Drawn
 from dq_marine.vehicles import Vehicle
 
 SETTINGS = frozenset(one.name for one in fields(Settings))
+
+
+@dataclass(frozen=True, slots=True)
+class PeriodStep:
+    """What each step of an environment takes, in one place.
+
+    An environment has the keywords of its task as attributes; the `__getattr__` that finds them makes all of its
+    attributes twice as slow, and a step would look up a dozen.
+
+    Attributes:
+        compiled: see `compiled_control_period`.
+        duration: of a control period [s].
+        substeps: in it.
+        draws: numbers that it takes from the random generator.
+        action_mapping: what an action does.
+        observation_places: where the parts of an observation are.
+        infos: what is said of it.
+    """
+
+    compiled: Callable[..., Any]
+    duration: float
+    substeps: int
+    draws: int
+    action_mapping: ActionMapping
+    observation_places: Places | None
+    infos: Infos
 
 
 class ComposedTask:
@@ -215,14 +242,17 @@ class ComposedTask:
         instruments = tuple(one.instrument for one in self.settings.sensor_list)
         sensed = with_sensors(task, instruments) if instruments else task
         self.task = self.action_mapping.task(sensed)
-        self._period_draws = sum(map(len, draws_of_period(self.scene.composition, self.task)))
         self._motion = make_motion(self.scene.composition)
         self.observation_places = places_of(self.observations)
-        self._report_names = self.report_names
-        self._success_place = len(self._report_names)
-        self._has_choice = self.pool.has_choice
-        self._period, self._substeps = self.settings.control_period, self.settings.substeps
-        self._compiled = self._compile()
+        self._step = PeriodStep(
+            compiled=self._compile(),
+            duration=self.settings.control_period,
+            substeps=self.settings.substeps,
+            draws=sum(map(len, draws_of_period(self.scene.composition, self.task))),
+            action_mapping=self.action_mapping,
+            observation_places=self.observation_places,
+            infos=Infos(self.report_names, self.pool.has_choice),
+        )
 
     def _compile(self) -> Callable[..., Any]:
         return compiled_control_period(
@@ -245,7 +275,7 @@ _NOTHING = _Nothing()
 """Stands for the definition while an environment is being made."""
 
 
-_NOT_CARRIED = ("_compiled", "_motion", "_view", "action_mapping", "task")
+_NOT_CARRIED = ("_step", "_motion", "_view", "action_mapping", "task")
 
 
 def _check_parameters(definition: TaskDefinition, parameters: Any) -> None:

@@ -39,11 +39,6 @@ from dq_marine.vehicles import Vehicle
 from dq_marine.viewer.snapshot import Snapshot
 
 Action = NDArray[np.float32]
-FLAGS = (np.array(False), np.array(True))
-"""What infos say of a condition, to be copied: arrays, which Gymnasium's vector environments merge into arrays."""
-
-NO_FALLBACKS = np.int64(0)
-"""What nearly all infos say of the steps by the fallback, made once."""
 
 
 class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
@@ -138,7 +133,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self._episode.clock = CLOCK_SPAN * self.np_random.random()
         self.refusal = None
         self._view.begin(self)
-        return self.observation, self._info(self._episode, False, 0)
+        return self.observation, self._step.infos.of(self._episode, False, 0)
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
@@ -155,10 +150,10 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             ResetNeeded: before the first reset.
         """
         episode = self._episode or self._running("step")
-        whole = whole_action(self.action_mapping, action)
-        draws = self._period_draws
-        uniforms = drawn_uniforms(self.np_random, draws, whole) if draws else NO_UNIFORMS
-        status, completed, fallbacks, residual_squared, reward, terminated = self._compiled(
+        step = self._step
+        whole = whole_action(step.action_mapping, action)
+        uniforms = drawn_uniforms(self.np_random, step.draws, whole) if step.draws else NO_UNIFORMS
+        status, completed, fallbacks, residual_squared, reward, terminated = step.compiled(
             episode.parameters,
             episode.episode_parameters,
             episode.state,
@@ -166,8 +161,8 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             whole,
             episode.observation,
             episode.report,
-            episode.periods * self._period + episode.clock,
-            self._substeps,
+            episode.periods * step.duration + episode.clock,
+            step.substeps,
             uniforms,
         )
         if status == ACTION_NOT_FINITE:
@@ -188,8 +183,8 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self.refusal = None
         if self._view.wants_frames:
             self._view.show(self)
-        info = self._info(episode, status != ACCEPTED, fallbacks)
-        return as_shown(episode.observation, self.observation_places), reward, terminated != 0.0, False, info
+        info = step.infos.of(episode, status != ACCEPTED, fallbacks)
+        return as_shown(episode.observation, step.observation_places), reward, terminated != 0.0, False, info
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return a picture, uint8 (height, width, 3), in mode "rgb_array"; None otherwise.
@@ -339,17 +334,6 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def _new_episode(self, parameters: EpisodeParameters, drawn: Drawn, number: int = 0) -> Episode:
         parts = (self.scene.composition, self.task, self.pool.parameters[number], parameters, drawn)
         return begun_episode(*parts, number, self.action_mapping.size)
-
-    def _info(self, episode: Episode, refused: bool, fallbacks: int) -> dict[str, Any]:
-        numbers, success = episode.report.copy(), self._success_place
-        info: dict[str, Any] = dict(zip(self._report_names, numbers))  # noqa: B905 - `strict` costs as much as a number
-        info["is_success"] = FLAGS[numbers.item(success) > 0.0].copy()
-        info["current_ned"] = numbers[success + 1 :]
-        info["refused"] = FLAGS[refused].copy()
-        info["fallback_substeps"] = np.int64(fallbacks) if fallbacks else NO_FALLBACKS
-        if self._has_choice:
-            info["vehicle"] = np.int64(episode.vehicle)
-        return info
 
     @property
     def _parameters(self) -> StepParameters:

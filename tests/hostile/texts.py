@@ -121,7 +121,7 @@ def spoil_entry(rng: Rng, path: Path) -> None:
     if kind <= 2 and path.is_file():
         path.write_bytes(changed_bytes(rng, path.read_bytes()))
         return
-    if kind == 3:
+    if kind == 3 and not path.with_name("other").exists():
         path.rename(path.with_name("other"))
         return
     shutil.rmtree(path) if path.is_dir() else path.unlink()

@@ -74,6 +74,7 @@ def test_a_table_for_people(folder):
         (("--segment", "0.1"), r"segment = 0\.1; give at least 1"),
         (("--segment", "1e9"), r"segment = 1e\+09; give at most"),
         (("--step", "nan"), r"step = nan is not finite"),
+        (("--step", "1e-308"), r"step = 1e-308; give at least 0\.0001"),
         (("--current", "1,2"), r"current has shape \(2,\); give shape \(3,\)"),
         (("--out", "fitted.json"), r"ending '\.json'; give a file that ends in \.toml"),
         (("--out", "nowhere/fitted.toml"), r"the folder nowhere does not exist"),

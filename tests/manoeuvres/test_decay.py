@@ -89,6 +89,7 @@ def test_a_vehicle_that_does_not_swing_says_so():
         ({"release": -0.1}, "release"),
         ({"release": 2.0}, "not below pi/2"),
         ({"step": 0.0}, "step"),
+        ({"step": 1e-308}, "step = 1e-308; give at least"),
         ({"periods": 0}, "periods"),
     ],
 )

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import pytest
 from hypothesis import given
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 from support.sweeps import sweep
 from typer.testing import CliRunner
 
+import dq_marine.validation
 from dq_marine.cli.main import app
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres.quantities import Quantity
@@ -115,6 +117,21 @@ def test_a_channel_or_a_quantity_that_there_is_not_is_refused(tmp_path):
         InvalidInputError, match=r"commands of 'middle': Otter has no such channel; it has port"
     ):
         compared("otter", load_vehicle("otter"), load_references(file).trial)
+
+
+def test_all_vehicles_are_there_before_the_first_is_simulated(tmp_path, monkeypatch):
+    monkeypatch.setattr(dq_marine.validation, "compared", None)
+    (tmp_path / "page").write_text("a file")
+    for arguments, message in (
+        (
+            ["osv83", "no_such_vehicle"],
+            "there are no references 'no_such_vehicle'|no vehicle 'no_such_vehicle'",
+        ),
+        (["osv83", "--out", str(tmp_path / "page")], "page.* cannot be written: File exists"),
+    ):
+        result = CliRunner().invoke(app, ["validate", *arguments])
+        assert result.exit_code == 1
+        assert re.search(message, " ".join(result.stderr.split()))
 
 
 def test_the_command_holds_a_vehicle_against_a_file_of_ones_own(tmp_path):
