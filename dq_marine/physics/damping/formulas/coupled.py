@@ -220,7 +220,7 @@ def coupled_algebra(structure: DampingStructure) -> DampingAlgebra:
         matrix = add_couplings(damping.couplings, twist, own_at(damping.own, twist))
         return add_blends(damping.blends, twist, add_strips(damping.strips, twist, matrix))
 
-    def coupled_slope(damping: CoupledDamping, twist: Spatial) -> Matrix6:
+    def coupled_slope(damping: CoupledDamping, twist: Spatial) -> Any:
         matrix = add_coupling_slopes(damping.couplings, twist, own_slope(damping.own, twist))
         return add_blend_slopes(damping.blends, twist, add_strip_slopes(damping.strips, twist, matrix))
 

@@ -115,7 +115,9 @@ def make_row_to_row(source: int, target: int) -> Callable[[Matrix6, float, Matri
     p_end, q_end = p + 3, q + 3
 
     def raised(block: Matrix3, s: float, a: Matrix3) -> Any:
-        return block[:q] + add_scaled(block[q:q_end], s, a[p:p_end]) + block[q_end:]
+        before: Any = block[q:q_end]
+        added: Any = a[p:p_end]
+        return block[:q] + add_scaled(before, s, added) + block[q_end:]
 
     def angular_row(a: Matrix6) -> tuple[Matrix3, Matrix3]:
         return (a.angular, a.angular_linear)

@@ -42,7 +42,7 @@ from dq_marine.physics.damping.formulas.matrix_entries import (
 Place: TypeAlias = tuple[int, int]
 """Row and column, each from 0 to 5, the angular part first."""
 
-ZERO = Matrix6((0.0,) * 9, (0.0,) * 9, (0.0,) * 9, (0.0,) * 9)  # type: ignore[arg-type]
+ZERO = Matrix6((0.0,) * 9, (0.0,) * 9, (0.0,) * 9, (0.0,) * 9)
 
 
 class MatrixKind(NamedTuple):
