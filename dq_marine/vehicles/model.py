@@ -226,7 +226,7 @@ class Vehicle(Table):
 
     @property
     def rigid_body_matrix(self) -> NDArray[np.float64]:
-        """M_RB about the body origin, shape (6, 6) (Fossen 2021, eq. 3.50)."""
+        """M_RB about the body origin, shape (6, 6) (Fossen 2021, ch. 3)."""
         mass = self.rigid_body.mass
         s = skew(np.array(self.rigid_body.center_of_mass))
         inertia = np.array(self.rigid_body.inertia)

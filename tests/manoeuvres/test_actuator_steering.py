@@ -99,7 +99,7 @@ def test_the_otter_turns_alike_to_both_sides():
 
 def test_helm_is_as_much_rudder_as_the_angle():
     remus, otter = load_vehicle("remus100"), load_vehicle("otter")
-    assert zig_zag(remus, overshoots=1).settings["helm"] == pytest.approx(10.0 / 15.0)
+    assert zig_zag(remus, overshoots=1).settings["helm"] == pytest.approx(10.0 / 13.6)
     assert zig_zag(otter, overshoots=1).settings["helm"] == pytest.approx(10.0 / 35.0)
 
 

@@ -1,7 +1,7 @@
 """Fossen's equations of motion, written separately from the product and solved by SciPy.
 
-M nu_r' + C(nu_r) nu_r + D(nu_r) nu_r + g = tau with the Earth-fixed kinematics (Fossen 2021, eqs. 6.1, 10.38),
-C from M by Fossen's parametrisation (eq. 3.60). Rotation matrices instead of quaternions, so that nothing is
+M nu_r' + C(nu_r) nu_r + D(nu_r) nu_r + g = tau with the Earth-fixed kinematics (Fossen 2021, eqs. 6.111-6.116),
+C from M by Fossen's parametrisation (Theorem 3.2). Rotation matrices instead of quaternions, so that nothing is
 shared with the product but the physics.
 """
 
