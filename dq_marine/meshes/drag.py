@@ -37,8 +37,9 @@ SLOW = 0.1
 """Linear damping is what the quadratic takes at this part of the design speed, and at that over half the length."""
 
 RELATIVE_DAMPING = {"heave": 0.2, "roll": 0.05, "pitch": 0.2}
-"""Of a hull afloat: in heave as Dmtrx.m of MSS takes for ships, in pitch the same, in both if its radiation was not solved;
-in roll that of a bare hull, which Himeno (1981, Prediction of Ship Roll Damping, A State of the Art) computes. Estimates."""
+"""Of a hull afloat, estimates: in heave as Dmtrx.m of MSS takes for ships, in pitch the same, both only where radiation
+was not solved; in roll that of a bare hull (how it is computed: Himeno 1981, Prediction of Ship Roll Damping).
+"""
 
 SUBMERGED_RELATIVE_DAMPING = 0.1
 """In roll and pitch, of a vehicle under water that rights itself, at the least: an estimate, below the 0.3 and 0.8 that
@@ -219,9 +220,7 @@ def linear_damping(
     for motion, axis in (("heave", 2), ("roll", 3), ("pitch", 4)):
         if radiated is None or motion == "roll":
             linear[axis] += RELATIVE_DAMPING[motion] * critical[axis]
-            reasons.append(
-                f"{motion}: a relative damping of {RELATIVE_DAMPING[motion]:g}, an estimate"
-            )
+            reasons.append(f"{motion}: a relative damping of {RELATIVE_DAMPING[motion]:g}, an estimate")
         if radiated is not None:
             linear[axis] += max(float(radiated[axis]), 0.0)
             reasons.append(f"{motion}: {radiated[axis]:.4g} of wave radiation at the natural frequency")

@@ -124,7 +124,7 @@ def test_a_vehicle_that_tumbles_says_so():
     whole = load_vehicle("bluerov2")
     vehicle = whole.model_copy(update={"damping": whole.damping.model_copy(update={"couplings": ()})})
     assert not any("throttle" in note for note in acceleration(whole).notes)
-    assert "try less throttle" in acceleration(vehicle).notes[-1]
+    assert any("try less throttle" in note for note in acceleration(vehicle).notes)
     assert not any(
         "throttle" in note for note in acceleration(vehicle, conditions=Conditions(throttle=0.1)).notes
     )
