@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from identification.logs import GROUPS, STEP, changed, rov_log, written
+from identification.logs import COLUMNS, GROUPS, PERIOD, STEP, changed, rov_log, written
 
-from dq_marine import load_vehicle
+from dq_marine import Scene, load_vehicle
+from dq_marine.algebra.attitude import attitude_angles
 from dq_marine.identification import Conditions, fit_vehicle, read_log
 from dq_marine.identification.parameters import parameters_of, quantities_of
 
@@ -62,3 +63,30 @@ def test_it_may_be_all_that_is_free_and_begins_where_it_is_given(nominal, log, f
         [found[label] for label in LABELS], abs=1e-3
     )
     assert again.vehicle == fit.vehicle
+
+
+@pytest.mark.sweep
+def test_a_vessel_afloat_tells_it_too(tmp_path):
+    """The Otter, by its propellers, with the noise of a receiver for position and velocity."""
+    nominal, groups = load_vehicle("otter"), ("linear", "cross_flow")
+    true = changed(nominal, groups, 4, spread=0.3)
+    rng = np.random.default_rng(4)
+    body = Scene(true, step=STEP, current=CURRENT, actuation="thrusters").stepper()
+    body.reset((0.0, 0.0, nominal.equilibrium_depth), (1.0, 0.0, 0.0, 0.0), (0.0,) * 6)
+    rows, speeds = [], np.zeros(2)
+    for k in range(round(120.0 / PERIOD) + 1):
+        if k % 50 == 0:
+            speeds = rng.uniform(-20.0, 80.0, 2)
+        position = body.position_ned[:2] + rng.normal(0.0, 0.3, 2)
+        angles = np.degrees(attitude_angles(body.quaternion_body_to_ned)) + rng.normal(0.0, 0.2, 3)
+        velocity = body.velocity_body + np.repeat([0.02, 0.003], 3) * rng.normal(size=6)
+        rows.append((k * PERIOD, *position, *angles, *velocity, *speeds))
+        body.actuate(speeds, round(PERIOD / STEP))
+    columns = ("time_s", "north_m", "east_m", *COLUMNS[2:11], "command_port_rad_s", "command_starboard_rad_s")
+    log = read_log(written(tmp_path / "run.csv", rows, columns), nominal)
+    fit = fit_vehicle(nominal, log, Conditions((*groups, "current"), step=STEP))
+    found = {one.label: one for one in fit.estimates}
+    expected = {one.label: one.value for one in quantities_of(true, parameters_of(nominal, groups))}
+    for label, value in (expected | dict(zip(LABELS, CURRENT, strict=False))).items():
+        assert abs(found[label].value - value) < 4.0 * found[label].standard_error, label
+    assert max(found[label].standard_error for label in LABELS) < 0.01
