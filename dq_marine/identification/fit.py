@@ -15,6 +15,7 @@ from dq_marine.identification.lanes import SegmentedLog
 from dq_marine.identification.log import Log
 from dq_marine.identification.model import Model, numbers_of
 from dq_marine.identification.parameters import (
+    CURRENT,
     DEFAULT_GROUPS,
     LARGEST_THETA,
     Parameter,
@@ -267,8 +268,10 @@ def _notes(
             f"current {LARGEST_THETA:g} m/s; do not trust it."
         )
     if colour:
+        sought = any(parameter.group == CURRENT for parameter in kept)
+        perhaps = "" if sought else ", such as a current, which may be fitted, too"
         notes.append(
-            f"The residuals of {colour} are no white noise: something is missing in the model, such as a current "
-            "(which may be fitted, too). Standard errors are enlarged for it."
+            f"The residuals of {colour} are no white noise: something is missing in the model{perhaps}. Standard errors "
+            "are enlarged for it."
         )
     return tuple(notes)
