@@ -1,0 +1,91 @@
+"""From a vehicle's polynomials to the pure functions and numbers of a step; nothing for a vehicle without."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from dq_marine.algebra.nesting import nested
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.physics.abkowitz.formulas.ship import (
+    HullAndMass,
+    MotionRange,
+    PlanarMass,
+    Products,
+    Ship,
+    make_ship_hull,
+    make_ship_rudder,
+)
+from dq_marine.physics.abkowitz.tables import WholeShip
+from dq_marine.physics.term import ForceTerm
+
+if TYPE_CHECKING:
+    from dq_marine.vehicles import Vehicle
+
+NAME = "whole ship"
+"""Name of the force among a scene's terms."""
+
+AHEAD, ACROSS, ROUND = 0, 1, 5
+"""Surge, sway and yaw in Fossen's order."""
+
+
+class RudderTerm(NamedTuple):
+    """A rudder: (numbers, channel's value, twist) -> wrench, and the numbers."""
+
+    wrench: Callable[[Ship, Any, Spatial], Spatial]
+    numbers: Ship
+
+
+def whole_ship_terms(vehicle: Vehicle) -> tuple[ForceTerm, ...]:
+    """Return the force of a ship with its rudder amidships; none of a vehicle without polynomials."""
+    if vehicle.whole_ship is None:
+        return ()
+    products, ship = _part(vehicle.whole_ship, vehicle.buoyancy.water_density, with_rudder=False)
+    numbers = HullAndMass(ship, planar_mass(vehicle))
+    return (ForceTerm(NAME, make_ship_hull(products), numbers, uses_velocity=True),)
+
+
+def rudder_term(tables: WholeShip, density: float) -> RudderTerm:
+    """Return what the rudder adds in water of a density [kg/m^3]."""
+    products, ship = _part(tables, density, with_rudder=True)
+    return RudderTerm(make_ship_rudder(products), ship)
+
+
+def planar_mass(vehicle: Vehicle) -> PlanarMass:
+    """Return the entries of M for surge, sway and yaw."""
+    m = vehicle.mass_matrix
+    return PlanarMass(
+        float(m[AHEAD, AHEAD]),
+        float(m[ACROSS, ACROSS]),
+        float(m[ROUND, ROUND]),
+        float(m[AHEAD, ACROSS]),
+        float(m[AHEAD, ROUND]),
+        float(m[ACROSS, ROUND]),
+    )
+
+
+def _part(tables: WholeShip, density: float, *, with_rudder: bool) -> tuple[Products, Ship]:
+    """Return the products and numbers of the polynomials: those with the rudder's angle, or those without."""
+    sign = 1.0 if tables.rudder.positive_to == "starboard" else -1.0
+
+    def chosen(derivatives: Mapping[str, float]) -> dict[str, float]:
+        return {
+            letters: value * sign ** letters.count("d")
+            for letters, value in derivatives.items()
+            if ("d" in letters) == with_rudder
+        }
+
+    surge, sway, yaw = map(chosen, (tables.surge, tables.sway, tables.yaw))
+    known, length = tables.range, tables.length
+    ship = Ship(
+        tables.service_speed,
+        length,
+        0.5 * density * length * length,
+        tables.depth,
+        MotionRange(known.loss, known.gain, math.sin(math.radians(known.drift_deg)), known.turn),
+        nested(list(surge.values())),
+        nested(list(sway.values())),
+        nested(list(yaw.values())),
+    )
+    return Products(tuple(surge), tuple(sway), tuple(yaw)), ship
