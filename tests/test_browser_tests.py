@@ -27,7 +27,7 @@ def test_no_page():
 """
 
 
-SETTINGS = ("CI", "DQ_MARINE_INSTALL_CHROMIUM")
+SETTINGS = ("CI", "DQ_MARINE_INSTALL_CHROMIUM", "PYTEST_ADDOPTS")
 """Variables that these tests set themselves, whatever the run of pytest was given."""
 
 

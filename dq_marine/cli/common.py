@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import os
-import re
 import sys
+from collections.abc import Iterator
 from typing import Any
 
 import typer
 from rich.console import Console
+from rich.segment import Segment
 from rich.text import Text
 from typer.core import TyperGroup
 
@@ -21,13 +22,18 @@ class SafeConsole(Console):
     """A console on which what came in from outside, such as the name of a file, cannot act on the terminal."""
 
     def render_str(self, text: str, **options: Any) -> Text:
-        """Return the text as it is shown."""
+        """Return the text as it is shown, before its place in a table is measured."""
         return super().render_str(safe(text), **options)
+
+    def render(self, renderable: Any, options: Any = None) -> Iterator[Segment]:
+        """Yield what is written: of texts, only what is printed; the console's own controls as they are."""
+        for segment in super().render(renderable, options):
+            yield segment if segment.control else Segment(safe(segment.text), segment.style)
 
 
 def safe(text: str) -> str:
     """Return the text with only its lines and tabs left of what is not printed."""
-    return "".join(part if part in "\n\t" else printable(part) for part in re.split("([\n\t])", text))
+    return "".join(one if one in "\n\t" else printable(one) for one in text)
 
 
 console = SafeConsole()
@@ -62,7 +68,7 @@ class Commands(TyperGroup):
 
 def _say(message: str) -> None:
     with contextlib.suppress(OSError):  # standard error may be gone, too
-        error_console.print(Text.assemble(("Error: ", "bold red"), safe(message)), soft_wrap=True)
+        error_console.print(Text.assemble(("Error: ", "bold red"), message), soft_wrap=True)
 
 
 def _drop_what_is_unwritten() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 import tomllib
@@ -61,6 +62,9 @@ def read_value(text: str, *, option: str) -> Any:
             return json.loads(written)
         except ValueError:
             continue
+    with contextlib.suppress(ValueError):
+        if "," in text:  # numbers as Python has them, such as .5 and +1
+            return [float(part) for part in text.split(",")]
     if _WORD.fullmatch(text):
         return text
     raise InvalidInputError(

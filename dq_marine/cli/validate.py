@@ -51,13 +51,15 @@ def validate(
     "zig-zag", "stopping" or "decay") and what that takes, and in it [[trial.expected]] with quantity, value and within,
     or at_least and at_most, and source. Those of the catalogue, in dq_marine/validation/references, are examples.
     """
-    from dq_marine.util.files import with_folder
     from dq_marine.validation import Verdict
 
     comparisons, silences = [], {}
     chosen = _chosen(vehicles or [], references)
     if out is not None:
-        with_folder(out / "README.md")
+        from dq_marine.util.files import with_folder
+        from dq_marine.validation.page import NAME
+
+        with_folder(out / NAME)  # before what takes minutes
     for name, vehicle, own in chosen:
         comparisons.append(_compared(name, vehicle, own))
         silences[name] = own.silence

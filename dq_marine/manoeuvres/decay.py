@@ -31,9 +31,8 @@ RELEASE_ANGLE = math.radians(10.0)
 RELEASE_HEAVE = 0.05
 """Heave at the release, over the length of the vehicle."""
 
-SAMPLES = 200
-MOST_SAMPLES = 20_000
-"""Smallest number of samples per period."""
+SAMPLES, MOST_SAMPLES = 200, 20_000
+"""Smallest and largest number of samples per period."""
 
 GONE = 0.01
 """Share of the release below which the swings are too small to measure."""

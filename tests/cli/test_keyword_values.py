@@ -24,6 +24,7 @@ from dq_marine.errors import InvalidInputError
         ('"a = b"', "a = b"),
         ("'single'", "single"),
         ("0.2,-0.1,0", [0.2, -0.1, 0]),
+        (".5,+1, 2", [0.5, 1.0, 2.0]),
         ("[0.2, -0.1, 0.0]", [0.2, -0.1, 0.0]),
         ("{effort = 0.05}", {"effort": 0.05}),
         ('{"effort": 0.05}', {"effort": 0.05}),

@@ -46,7 +46,7 @@ def judged(seed: int, door: str | None = None) -> Verdict:
     rng = np.random.default_rng([seed, 1])
     drawn = NAMES[
         rng.integers(len(NAMES))
-    ]  # whether used or not, so that a door can be named of a case found
+    ]  # even if a door is named: a case is the same by its seed and by both
     name = door or drawn
     chosen = DOORS[name]
     target = chosen.target() if chosen.target else None

@@ -168,7 +168,9 @@ def run_in_empty_folder(arguments: list[str]) -> Any:
     assert "\x07" not in shown, "control characters reached the terminal"
     assert "Traceback" not in shown, "a traceback was shown"
     if result.exit_code == 1:
-        assert "Error: " in result.stderr, f"no message: {result.stderr}"
+        assert any(line.startswith("Error: ") for line in result.stderr.splitlines()), (
+            f"no message: {result.stderr}"
+        )
         raise CommandError(result.stderr)
     if result.exit_code:
         assert "Usage" in result.stderr, f"exit code {result.exit_code} without a message"

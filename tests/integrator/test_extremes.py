@@ -67,9 +67,7 @@ def test_fast_spins_about_any_axis(spin):
 
 
 @settings(max_examples=60)
-@example(
-    seed=533, log_condition=5.0, log_mass=0.0, log_speed=1.0, scheme="midpoint"
-)  # refused for its energy
+@example(533, 5.0, 0.0, 1.0, "midpoint")  # refused for its energy
 @given(
     seeds,
     st.floats(0.0, 8.0),
