@@ -6,8 +6,9 @@ import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from dq_marine.algebra.dual_quaternion import pose_from_parts
 from dq_marine.algebra.nesting import nested
-from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.spatial import Spatial, from_fossen, to_fossen
 from dq_marine.physics.abkowitz.formulas.ship import (
     HullAndMass,
     MotionRange,
@@ -28,6 +29,9 @@ NAME = "whole ship"
 
 AHEAD, ACROSS, ROUND = 0, 1, 5
 """Surge, sway and yaw in Fossen's order."""
+
+AT_ORIGIN = pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+"""A pose, of which the polynomials know nothing."""
 
 
 class RudderTerm(NamedTuple):
@@ -50,6 +54,24 @@ def rudder_term(tables: WholeShip, density: float) -> RudderTerm:
     """Return what the rudder adds in water of a density [kg/m^3]."""
     products, ship = _part(tables, density, with_rudder=True)
     return RudderTerm(make_ship_rudder(products), ship)
+
+
+def own_axis_force(vehicle: Vehicle, axis: int) -> Callable[[float], float]:
+    """Return the force of motion along or about one axis alone [N, N m], rudder amidships; 0 without polynomials.
+
+    In surge it is the propeller's, too, and drives a ship ahead that is slower than its service speed.
+    """
+    terms = whole_ship_terms(vehicle)
+
+    def force(speed: float) -> float:
+        velocity = [0.0] * 6
+        velocity[axis] = speed
+        return sum(
+            float(to_fossen(term.function(term.parameters, AT_ORIGIN, from_fossen(velocity), 0.0))[axis])
+            for term in terms
+        )
+
+    return force
 
 
 def planar_mass(vehicle: Vehicle) -> PlanarMass:

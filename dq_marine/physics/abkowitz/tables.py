@@ -17,12 +17,15 @@ from dq_marine.physics.fields import NonNegative, Positive, Table
 
 LETTERS = re.compile("0|[uvrd]{1,4}")
 
+LARGEST = 10.0
+"""Of a dimensionless derivative; those of ships are below 1."""
+
 
 def checked_polynomial(coefficients: dict[str, float]) -> dict[str, float]:
     """Return the coefficients by letters in the order u, v, r, d; a constant by none.
 
     Raises:
-        ValueError: a name has other letters, or two names mean the same.
+        ValueError: a name has other letters, two names mean the same, or a value is no dimensionless derivative.
     """
     found: dict[str, float] = {}
     for name, value in coefficients.items():
@@ -31,6 +34,11 @@ def checked_polynomial(coefficients: dict[str, float]) -> dict[str, float]:
         letters = "".join(sorted(name.replace("0", ""), key="uvrd".index))
         if letters in found:
             raise ValueError(f"{name!r} is there twice, its letters in another order; give their sum")
+        if abs(value) > LARGEST:
+            raise ValueError(
+                f"{name!r} is {value:g}, beyond {LARGEST:g}: no derivative is; where they are published in units of 1e-5, "
+                "write -1160e-5"
+            )
         found[letters] = value
     return found
 
