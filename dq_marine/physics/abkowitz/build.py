@@ -93,7 +93,7 @@ def _part(tables: WholeShip, density: float, *, with_rudder: bool) -> tuple[Prod
 
     def chosen(derivatives: Mapping[str, float]) -> dict[str, float]:
         return {
-            letters: value * sign ** letters.count("d")
+            letters.replace("0", ""): value * sign ** letters.count("d")
             for letters, value in derivatives.items()
             if ("d" in letters) == with_rudder
         }

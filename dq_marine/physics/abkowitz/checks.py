@@ -110,17 +110,15 @@ def _check_rudder(ship: WholeShip) -> None:
 
 
 def _check_speed(vehicle: Vehicle, ship: WholeShip) -> None:
-    if ship.surge.get("", 0.0) != 0.0:
+    if ship.surge.get("0", 0.0) != 0.0:
         raise Implausible(
             "whole_ship.surge.0",
-            ship.surge[""],
+            ship.surge["0"],
             "with a constant force ahead the ship does not hold its service speed",
             "leave it out",
         )
-    force, known = own_axis_force(vehicle, AHEAD), ship.range
-    # Where u' is at its limits, on a straight course.
-    slow, fast = (ship.service_speed / (1.0 - change) for change in (-known.loss, known.gain))
-    for speed, what, sign in ((slow, "driven back to it", 1.0), (fast, "held back", -1.0)):
+    force = own_axis_force(vehicle, AHEAD)
+    for speed, what, sign in ((ship.slowest, "driven ahead", 1.0), (ship.fastest, "held back", -1.0)):
         value = force(speed)
         if sign * value <= 0.0:
             raise Implausible(

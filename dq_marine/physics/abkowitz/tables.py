@@ -22,7 +22,7 @@ LARGEST = 10.0
 
 
 def checked_polynomial(coefficients: dict[str, float]) -> dict[str, float]:
-    """Return the coefficients by letters in the order u, v, r, d; a constant by none.
+    """Return the coefficients by letters in the order u, v, r, d.
 
     Raises:
         ValueError: a name has other letters, two names mean the same, or a value is no dimensionless derivative.
@@ -31,7 +31,7 @@ def checked_polynomial(coefficients: dict[str, float]) -> dict[str, float]:
     for name, value in coefficients.items():
         if not LETTERS.fullmatch(name):
             raise ValueError(f'{name!r} is no derivative; give one to four of the letters u, v, r, d, or "0"')
-        letters = "".join(sorted(name.replace("0", ""), key="uvrd".index))
+        letters = "".join(sorted(name, key="0uvrd".index))
         if letters in found:
             raise ValueError(f"{name!r} is there twice, its letters in another order; give their sum")
         if abs(value) > LARGEST:
@@ -106,3 +106,13 @@ class WholeShip(Table):
     yaw: Derivatives
     rudder: WholeShipRudder
     range: WholeShipRange = WholeShipRange()
+
+    @property
+    def slowest(self) -> float:
+        """Speed on a straight course below which the polynomials are continued [m/s]."""
+        return self.service_speed / (1.0 + self.range.loss)
+
+    @property
+    def fastest(self) -> float:
+        """Speed on a straight course above which they are continued [m/s]."""
+        return self.service_speed / (1.0 - self.range.gain)
