@@ -126,7 +126,9 @@ def _terminal(sheet: Sheet, motion: str) -> str:
     if math.isinf(speed):
         return "not damped"
     helped = motion == "surge" and sheet.service_speed is not None
-    return _with_unit(sheet.terminal_speed, motion, "m/s", "rad/s") + (", the propeller helping" if helped else "")
+    return _with_unit(sheet.terminal_speed, motion, "m/s", "rad/s") + (
+        ", the propeller helping" if helped else ""
+    )
 
 
 def _with_unit(values: Mapping[str, float], motion: str, linear: str, angular: str) -> str:

@@ -30,7 +30,9 @@ def polynomials(u, v, r, d):
     y += 278e-5 * d - 90e-5 * d**3 + 556e-5 * u * d + 278e-5 * u**2 * d - 4e-5 * v * d**2 + 1190e-5 * v**2 * d
     y += -4e-5 - 8e-5 * u - 4e-5 * u**2
     n = -264e-5 * v - 166e-5 * r + 1636e-5 * v**3 - 5483e-5 * v**2 * r - 264e-5 * v * u - 166e-5 * r * u
-    n += -139e-5 * d + 45e-5 * d**3 - 278e-5 * u * d - 139e-5 * u**2 * d + 13e-5 * v * d**2 - 489e-5 * v**2 * d
+    n += (
+        -139e-5 * d + 45e-5 * d**3 - 278e-5 * u * d - 139e-5 * u**2 * d + 13e-5 * v * d**2 - 489e-5 * v**2 * d
+    )
     n += 3e-5 + 6e-5 * u + 3e-5 * u**2
     return x, y, n
 
@@ -74,47 +76,36 @@ class Mariner:
 
     def held(self, state, ordered, duration, until=None):
         """The solution under an order that stands, up to a duration or to where `until` changes its sign."""
-        events = None
-        if until is not None:
-            def events(t, state):
-                return until(state)
-            events.terminal = True
+
+        def event(t, state):
+            return until(state)
+
+        event.terminal = True
         return solve_ivp(
             lambda t, state: self.derivative(state, ordered),
             (0.0, duration),
             state,
-            events=events,
-            dense_output=True,
+            events=None if until is None else event,
             **TIGHT,
         )
 
-    def settled(self, duration=3000.0):
-        """The course that it comes to with the rudder amidships, as an approach ends, heading north from the origin."""
-        end = self.held(self.start(), 0.0, duration).y[:, -1]
-        end[:3] = 0.0
-        return end
-
     def turn(self, degrees, side):
         """Advance, transfer, tactical diameter [m], steady speed [m/s] of a turn to starboard (1) or port (-1)."""
-        solution = self.held(self.start(), -side * math.radians(degrees), 1500.0)
-        found = []
-        for angle in (0.5 * math.pi, math.pi):
-            found.append(
-                self.held(
-                    self.start(), -side * math.radians(degrees), 1500.0, lambda s, a=angle: side * s[2] - a
-                ).y[:, -1]
-            )
-        quarter, half = found
-        u, v = solution.y[3:5, -1]
-        return quarter[0], side * quarter[1], side * half[1], math.hypot(u, v)
+        angle = -side * math.radians(degrees)
+
+        def at(heading):
+            return self.held(self.start(), angle, 1500.0, lambda state: side * state[2] - heading).y[:2, -1]
+
+        (advance, transfer), (_, diameter) = at(0.5 * math.pi), at(math.pi)
+        u, v = self.held(self.start(), angle, 1500.0).y[3:5, -1]
+        return advance, side * transfer, side * diameter, math.hypot(u, v)
 
     def overshoots(self, degrees, side, count=2):
         """Overshoots [degrees] of a zig-zag whose helm is put first to starboard (1) or port (-1)."""
         angle, state, found = math.radians(degrees), self.start(), []
         while len(found) < count:
             state = self.held(state, -side * angle, 600.0, lambda s, a=side: a * s[2] - angle).y[:, -1]
-            turned = self.held(state, side * angle, 600.0, lambda s: s[5])
-            found.append(math.degrees(side * turned.y[2, -1]) - degrees)
-            # On from the reversal, not from the peak, whose order is the same.
-            side = -side
+            peak = self.held(state, side * angle, 600.0, lambda s: s[5]).y[:, -1]
+            found.append(math.degrees(side * peak[2]) - degrees)
+            side = -side  # on from the reversal: from the peak the same order would stand
         return found

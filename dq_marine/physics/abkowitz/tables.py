@@ -36,8 +36,8 @@ def checked_polynomial(coefficients: dict[str, float]) -> dict[str, float]:
             raise ValueError(f"{name!r} is there twice, its letters in another order; give their sum")
         if abs(value) > LARGEST:
             raise ValueError(
-                f"{name!r} is {value:g}, beyond {LARGEST:g}: no derivative is; where they are published in units of 1e-5, "
-                "write -1160e-5"
+                f"{name!r} is {value:g}, beyond {LARGEST:g}, as no derivative is; write those that are published in "
+                "units of 1e-5 as -1160e-5"
             )
         found[letters] = value
     return found

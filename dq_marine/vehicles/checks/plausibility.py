@@ -50,8 +50,8 @@ def check_vehicle(vehicle: Vehicle) -> None:
     _check_limits(vehicle)
     _check_thrusters(vehicle)
     check_floating(vehicle)
-    check_manoeuvring(vehicle)
     check_whole_ship(vehicle)
+    check_manoeuvring(vehicle)
     _check_actuator_size(vehicle)
 
 

@@ -93,7 +93,8 @@ def make_polynomial(products: tuple[str, ...]) -> Polynomial:
         product_of = make_product(letters)
 
         def polynomial(coefficients: Any, motion: ShipMotion) -> float:
-            return coefficients[0] * product_of(motion) + rest(coefficients[1], motion)
+            first: float = coefficients[0] * product_of(motion)
+            return first + rest(coefficients[1], motion)
 
         return polynomial
 
