@@ -83,8 +83,8 @@ class Setup:
         ship = self.vehicle.whole_ship
         if ship is not None and self.scene.actuation == "thrusters" and throttle != 1.0:
             raise InvalidInputError(
-                f"throttle = {throttle:g}: the propeller of {self.vehicle.name!r} is in its polynomials and turns as it "
-                f"does at {ship.service_speed:g} m/s, no faster or slower and not astern; give throttle 1, or "
+                f"throttle = {throttle:g}: the propeller of {self.vehicle.name!r} is in its polynomials and turns as "
+                f"at {ship.service_speed:g} m/s, never otherwise; give throttle 1, or "
                 'actuation="wrench", whose force acts besides'
             )
 

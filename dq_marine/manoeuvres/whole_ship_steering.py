@@ -15,7 +15,7 @@ class WholeShipSteering:
     """Helm is a share of the largest rudder angle; the throttle is always full, and its other actuators rest."""
 
     def __init__(self, tables: WholeShip, density: float, channels: int) -> None:
-        """Take the ship's tables, the density of the water [kg/m^3], and the number of channels: the last is the rudder."""
+        """Take the ship's tables, the density of the water [kg/m^3], and how many channels: the last is the rudder."""
         self._angle_limit = tables.rudder.limit
         self._rudder = rudder_term(tables, density)
         self._channels = channels
