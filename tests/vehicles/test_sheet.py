@@ -183,7 +183,7 @@ def test_a_sheet_needs_a_speed(speed):
 
 
 def test_terminal_speeds_of_a_ship_by_polynomials_are_balances_of_its_force():
-    """About the vertical axis alone, where u' is held at -0.6; in surge tests/manoeuvres/test_whole_ship_steering.py."""
+    """About the vertical axis alone, where u' is held at -0.6; in surge: test_whole_ship_steering.py."""
     vehicle = load_vehicle("mariner")
     sheet, length = vehicle_sheet(vehicle), 160.93
     assert sheet.service_speed == 7.7175

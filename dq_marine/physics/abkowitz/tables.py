@@ -15,14 +15,25 @@ from pydantic import AfterValidator, Field
 
 from dq_marine.physics.fields import NonNegative, Positive, Table
 
+ORDER = "0uvrd"
+"""Of letters in a name."""
+
 LETTERS = re.compile("0|[uvrd]{1,4}")
 
 LARGEST = 10.0
 """Of a dimensionless derivative; those of ships are below 1."""
 
 
-def checked_polynomial(coefficients: dict[str, float]) -> dict[str, float]:
-    """Return the coefficients by letters in the order u, v, r, d.
+class Derivatives(dict[str, float]):
+    """Coefficients of a polynomial by their letters; like all of a vehicle they stay, and so it has a hash."""
+
+    def __hash__(self) -> int:  # type: ignore[override]
+        """Return a hash that equal ones have."""
+        return hash(frozenset(self.items()))
+
+
+def checked_polynomial(coefficients: dict[str, float]) -> Derivatives:
+    """Return the coefficients in one order, by letters in the order u, v, r, d.
 
     Raises:
         ValueError: a name has other letters, two names mean the same, or a value is no dimensionless derivative.
@@ -31,7 +42,7 @@ def checked_polynomial(coefficients: dict[str, float]) -> dict[str, float]:
     for name, value in coefficients.items():
         if not LETTERS.fullmatch(name):
             raise ValueError(f'{name!r} is no derivative; give one to four of the letters u, v, r, d, or "0"')
-        letters = "".join(sorted(name, key="0uvrd".index))
+        letters = "".join(sorted(name, key=ORDER.index))
         if letters in found:
             raise ValueError(f"{name!r} is there twice, its letters in another order; give their sum")
         if abs(value) > LARGEST:
@@ -40,11 +51,11 @@ def checked_polynomial(coefficients: dict[str, float]) -> dict[str, float]:
                 "units of 1e-5 as -1160e-5"
             )
         found[letters] = value
-    return found
+    return Derivatives(sorted(found.items(), key=lambda item: (len(item[0]), [*map(ORDER.index, item[0])])))
 
 
-Derivatives = Annotated[dict[str, float], AfterValidator(checked_polynomial)]
-"""Coefficients of a polynomial, by their letters."""
+Polynomial = Annotated[dict[str, float], AfterValidator(checked_polynomial)]
+"""A field with the coefficients of a polynomial."""
 
 
 class WholeShipRange(Table):
@@ -101,9 +112,9 @@ class WholeShip(Table):
     length: Positive
     service_speed: Positive
     depth: float = 0.0
-    surge: Derivatives
-    sway: Derivatives
-    yaw: Derivatives
+    surge: Polynomial
+    sway: Polynomial
+    yaw: Polynomial
     rudder: WholeShipRudder
     range: WholeShipRange = WholeShipRange()
 

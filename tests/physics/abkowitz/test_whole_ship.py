@@ -286,6 +286,8 @@ def test_what_a_file_says_is_read_back():
     assert validated(MARINER.model_dump(), "test") == MARINER
     other = changed(lambda c: c["whole_ship"]["sway"].update(rvv=c["whole_ship"]["sway"].pop("vvr")))
     assert other.whole_ship == MARINER.whole_ship
+    assert hash(other) == hash(MARINER)
+    assert list(other.whole_ship.sway) == list(MARINER.whole_ship.sway)
 
 
 def mmg(content):
