@@ -1,6 +1,6 @@
 """The Mariner class ship in three degrees of freedom, written separately from the product and solved by SciPy.
 
-Chislett and Stroem-Tejsen's coefficients (1965, Report Hy-5) in the equations of motion of mariner.m (Fossen and Perez,
+Chislett and Stroem-Tejsen's coefficients (1965) in the equations of motion of mariner.m (Fossen and Perez,
 Marine Systems Simulator), about 15 knots: all that is not an acceleration is in the polynomials. Rudder angles here are
 the published ones, which turn the ship to port where they are positive.
 """

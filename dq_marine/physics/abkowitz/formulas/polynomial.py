@@ -87,7 +87,7 @@ def make_product(letters: str) -> Callable[[ShipMotion], float]:
 
 @functools.cache
 def make_polynomial(products: tuple[str, ...]) -> Polynomial:
-    """Return (coefficients, motion) -> the sum of coefficients times products."""
+    """Return (coefficients, motion) -> the sum of coefficients times products (W2)."""
 
     def link(letters: str, rest: Polynomial) -> Polynomial:
         product_of = make_product(letters)

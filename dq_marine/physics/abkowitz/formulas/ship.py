@@ -1,18 +1,9 @@
 """What the water does to a ship with its propeller and rudder, by polynomials about its service speed.
 
 Abkowitz, M. A. (1964), Lectures on Ship Hydrodynamics: Steering and Manoeuvrability, Hydro- and Aerodynamics
-Laboratory, Lyngby, Report Hy-5. With U = sqrt(u^2 + v^2), u' = (u - U_0)/U, v' = v/U and r' = r L/U
-
-    M (u_dot, v_dot, r_dot) = (rho/2) L^2 U^2 (X', Y', L N'),   X', Y', N' polynomials in u', v', r', delta      (A1)
-
-The polynomials are all there is on the right-hand side: what M gives of itself, its centripetal forces and moments with
-momentum p = M (u, v, r), is in them and is taken out,
-
-    X = (rho/2) L^2 U^2 X' - r p_2,   Y = ... + r p_1,   N = ... + u p_2 - v p_1                               (A2)
-
-The propeller turns as it does at the service speed, so that a ship that is slower is driven ahead. Beyond the motions
-that the polynomials know, they are continued: the speed in (A1) is at least (U_0 - u)/s and L |r|/t with the largest
-loss s = -u' and turn t that they know, and v' is held within its limit.                                       (A3)
+Laboratory, Lyngby, Report Hy-5; (W1) to (W5) are those of docs/theory.md. The polynomials are all there is on the
+right-hand side of the published equations of motion, centripetal forces too, and the propeller turns as it does at the
+service speed, so that a ship that is slower is driven ahead.
 """
 
 from __future__ import annotations
@@ -87,7 +78,7 @@ class Products(NamedTuple):
 
 
 def ship_motion(ship: Ship, twist: Spatial, rudder: float) -> ShipMotion:
-    """Return what polynomials are evaluated at: (A1), (A3)."""
+    """Return what polynomials are evaluated at: (W1), (W5)."""
     u, v, r = twist.linear[0], twist.linear[1], twist.angular[2]
     known, change = ship.range, u - ship.service_speed
     speed = max(math.sqrt(u * u + v * v), max(-change / known.loss, abs(r) * ship.length / known.turn))
@@ -102,7 +93,7 @@ def ship_motion(ship: Ship, twist: Spatial, rudder: float) -> ShipMotion:
 
 @functools.cache
 def make_ship_wrench(products: Products) -> Callable[[Ship, ShipMotion], Spatial]:
-    """Return (ship, motion) -> the wrench of (A1)."""
+    """Return (ship, motion) -> the wrench of (W3)."""
     surge_at, sway_at, yaw_at = (make_polynomial(own) for own in products)
 
     def ship_wrench(ship: Ship, motion: ShipMotion) -> Spatial:
@@ -115,7 +106,7 @@ def make_ship_wrench(products: Products) -> Callable[[Ship, ShipMotion], Spatial
 
 
 def without_own(mass: PlanarMass, twist: Spatial, depth: float, wrench: Spatial) -> Spatial:
-    """Return a wrench without what M gives of itself in the plane (A2)."""
+    """Return a wrench without what M gives of itself in the plane (W4)."""
     u, v, r = twist.linear[0], twist.linear[1], twist.angular[2]
     p1 = mass.surge * u + mass.surge_sway * v + mass.surge_yaw * r
     p2 = mass.surge_sway * u + mass.sway * v + mass.sway_yaw * r
