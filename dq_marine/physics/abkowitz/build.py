@@ -57,11 +57,12 @@ def rudder_term(tables: WholeShip, density: float) -> RudderTerm:
 
 
 def own_axis_force(vehicle: Vehicle, axis: int) -> Callable[[float], float]:
-    """Return the force of motion along or about one axis alone [N, N m], rudder amidships; 0 without polynomials.
+    """Return the force of motion along or about one axis alone [N, N m], rudder amidships; 0 of heave, roll, pitch.
 
-    In surge it is the propeller's, too, and drives a ship ahead that is slower than its service speed.
+    In surge it is the propeller's, too, and drives a ship ahead that is slower than its service speed. It is 0 of a
+    vehicle without polynomials.
     """
-    terms = whole_ship_terms(vehicle)
+    terms = whole_ship_terms(vehicle) if axis in (AHEAD, ACROSS, ROUND) else ()
 
     def force(speed: float) -> float:
         velocity = [0.0] * 6
@@ -88,14 +89,14 @@ def planar_mass(vehicle: Vehicle) -> PlanarMass:
 
 
 def _part(tables: WholeShip, density: float, *, with_rudder: bool) -> tuple[Products, Ship]:
-    """Return the products and numbers of the polynomials: those with the rudder's angle, or those without."""
+    """Return the products and numbers of the polynomials that are not 0: with the rudder's angle, or without."""
     sign = 1.0 if tables.rudder.positive_to == "starboard" else -1.0
 
     def chosen(derivatives: Mapping[str, float]) -> dict[str, float]:
         return {
             letters.replace("0", ""): value * sign ** letters.count("d")
             for letters, value in derivatives.items()
-            if ("d" in letters) == with_rudder
+            if value != 0.0 and ("d" in letters) == with_rudder
         }
 
     surge, sway, yaw = map(chosen, (tables.surge, tables.sway, tables.yaw))
