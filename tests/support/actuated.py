@@ -1,7 +1,7 @@
 """Fossen's equations of motion together with those of the actuators, written separately from the product.
 
 One system of ordinary differential equations for SciPy: pose, velocity, and the channels x with dx/dt =
-clip((c - x)/T, -R, R). Still water; damping diagonal or full, linear and quadratic.
+clip((c - x)/T, -R, R). Still water; damping linear, quadratic and by couplings.
 """
 
 from __future__ import annotations
@@ -70,6 +70,8 @@ def solve(vehicle, position, quaternion, velocity, values, command, duration):
         force = np.concatenate([excess * down, skew(vehicle.restoring_arm) @ down])
         force = force + actuator_wrench(vehicle, x, nu) - coriolis(m, nu) @ nu
         force = force - vehicle.linear_damping @ nu - vehicle.quadratic_damping * np.abs(nu) * nu
+        force = force - np.einsum("ijk,j,k->i", vehicle.damping_couplings, nu, np.abs(nu))
+        force = force - np.einsum("ijk,j,k->i", vehicle.signed_damping_couplings, nu, nu)
         dx = np.clip((np.asarray(command) - x) / lags, -rates, rates)
         return np.concatenate([r @ nu[:3], (r @ skew(nu[3:])).ravel(), inverse @ force, dx])
 
