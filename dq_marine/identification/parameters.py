@@ -106,7 +106,7 @@ def _parameters(vehicle: Vehicle, group: str) -> list[Parameter]:
         return _of_axes(group, "quadratic damping", vehicle.quadratic_damping)
     if group == "couplings":
         return [
-            Parameter(group, _coupling_name(coupling), (number,))
+            Parameter(group, f"coupling, {coupling.name}", (number,))
             for number, coupling in enumerate(vehicle.damping.couplings)
             if coupling.coefficient
         ]
@@ -125,10 +125,6 @@ def _of_axes(group: str, what: str, diagonal: Array) -> list[Parameter]:
 
 def _pair_name(i: int, j: int) -> str:
     return MOTIONS[i] if i == j else f"{MOTIONS[j]} with {MOTIONS[i]}"
-
-
-def _coupling_name(coupling: Any) -> str:
-    return f"coupling, {coupling.force} by |{coupling.speed}| {coupling.velocity}"
 
 
 def _actuators(vehicle: Vehicle) -> list[str]:

@@ -229,7 +229,7 @@ class Vehicle(Table):
 
     @property
     def rigid_body_matrix(self) -> NDArray[np.float64]:
-        """M_RB about the body origin, shape (6, 6) (Fossen 2021, eq. 3.50)."""
+        """M_RB about the body origin, shape (6, 6) (Fossen 2021, ch. 3)."""
         mass = self.rigid_body.mass
         s = skew(np.array(self.rigid_body.center_of_mass))
         inertia = np.array(self.rigid_body.inertia)
@@ -269,7 +269,12 @@ class Vehicle(Table):
     @property
     def damping_couplings(self) -> NDArray[np.float64]:
         """C of the forces -sum_jk c_ijk |nu_k| nu_j on axes i, shape (6, 6, 6)."""
-        return coupling_tensor(self.damping.couplings)
+        return coupling_tensor(one for one in self.damping.couplings if not one.signed)
+
+    @property
+    def signed_damping_couplings(self) -> NDArray[np.float64]:
+        """C of the forces -sum_jk c_ijk nu_k nu_j on axes i, shape (6, 6, 6)."""
+        return coupling_tensor(one for one in self.damping.couplings if one.signed)
 
     @property
     def restoring_arm(self) -> NDArray[np.float64]:
