@@ -40,11 +40,10 @@ def polynomials(u, v, r, d):
 class Mariner:
     """The ship: `Y'_rdot` and `N'_vdot` as they were measured, or with the mean of both in the place of each."""
 
-    def __init__(self, *, symmetric=False, scale=1.0, service_speed=SERVICE_SPEED):
+    def __init__(self, *, symmetric=False):
         y_rdot, n_vdot = -9.354e-5, 4.646e-5
         if symmetric:
             y_rdot = n_vdot = 0.5 * (y_rdot + n_vdot)
-        self.length, self.service_speed = scale * LENGTH, service_speed
         self.surge_mass = MASS + 42e-5
         self.lateral_mass = np.array(
             [[MASS + 748e-5, MASS * CENTER - y_rdot], [MASS * CENTER - n_vdot, INERTIA + 43.8e-5]]
@@ -52,11 +51,11 @@ class Mariner:
 
     def rates(self, u, v, r, d):
         """Rates of u, v [m/s^2] and r [rad/s^2]; u is the whole speed ahead, d the published rudder angle."""
-        speed, length = math.hypot(u, v), self.length
-        x, y, n = polynomials((u - self.service_speed) / speed, v / speed, r * length / speed, d)
+        speed = math.hypot(u, v)
+        x, y, n = polynomials((u - SERVICE_SPEED) / speed, v / speed, r * LENGTH / speed, d)
         sway, yaw = np.linalg.solve(self.lateral_mass, [y, n])
-        per_length = speed**2 / length
-        return per_length * x / self.surge_mass, per_length * sway, per_length / length * yaw
+        per_length = speed**2 / LENGTH
+        return per_length * x / self.surge_mass, per_length * sway, per_length / LENGTH * yaw
 
     def derivative(self, state, ordered):
         """Rates of x, y, psi, u, v, r, delta when an angle is ordered, both as published."""
@@ -72,7 +71,7 @@ class Mariner:
 
     def start(self):
         """The straight course at the service speed, rudder amidships."""
-        return np.array([0.0, 0.0, 0.0, self.service_speed, 0.0, 0.0, 0.0])
+        return np.array([0.0, 0.0, 0.0, SERVICE_SPEED, 0.0, 0.0, 0.0])
 
     def held(self, state, ordered, duration, until=None):
         """The solution under an order that stands, up to a duration or to where `until` changes its sign."""
