@@ -271,7 +271,7 @@ def _notes(
         sought = any(parameter.group == CURRENT for parameter in kept)
         perhaps = "" if sought else ", such as a current, which may be fitted, too"
         notes.append(
-            f"The residuals of {colour} are no white noise: something is missing in the model{perhaps}. Standard errors "
-            "are enlarged for it."
+            f"The residuals of {colour} are no white noise: something is missing in the model{perhaps}. "
+            "Standard errors are enlarged for it."
         )
     return tuple(notes)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from dq_marine.physics.abkowitz.tables import WholeShip
 from dq_marine.physics.actuators.tables import ActuatorSet, Azimuth, ChannelSheet, Fin, Thruster
 from dq_marine.physics.constants import GRAVITY
 from dq_marine.physics.damping.blended_table import BlendedDamping
@@ -131,6 +132,7 @@ class Vehicle(Table):
         azimuths: propellers whose axes turn.
         fins: rudders and planes.
         manoeuvring: the MMG model of a ship: its hull, and its propeller and rudder as one actuator.
+        whole_ship: polynomials about a ship's service speed, its propeller and its rudder in them.
         hydrostatics: of a vessel that floats; None for one that is under water altogether.
         hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
         payloads: weights that act besides.
@@ -154,6 +156,7 @@ class Vehicle(Table):
     azimuths: tuple[Azimuth, ...] = ()
     fins: tuple[Fin, ...] = ()
     manoeuvring: Manoeuvring | None = None
+    whole_ship: WholeShip | None = None
     hydrostatics: Hydrostatics | None = None
     hull: tuple[HullBox, ...] = ()
     payloads: tuple[Payload, ...] = ()
@@ -289,7 +292,7 @@ class Vehicle(Table):
     def actuators(self) -> ActuatorSet:
         """The actuators whose forces are known: without thrusters that are for drawing only."""
         driven = tuple(thruster for thruster in self.thrusters if thruster.driven)
-        return ActuatorSet(driven, self.azimuths, self.fins, self.manoeuvring)
+        return ActuatorSet(driven, self.azimuths, self.fins, self.manoeuvring, self.whole_ship)
 
     @property
     def channels(self) -> tuple[ChannelSheet, ...]:

@@ -28,11 +28,11 @@ def strip_drag(plane, coefficient, first, spacing, number, nu):
     """Cross-flow drag of strips at x, of their own velocity across the hull: that of the water at r x (x, 0, 0)."""
     drag = np.zeros(6)
     for x in first + spacing * np.arange(number):
-        velocity = nu[:3] + np.cross(nu[3:], (x, 0.0, 0.0))
+        velocity = nu[:3] + skew(nu[3:]) @ (x, 0.0, 0.0)
         axis = 1 if plane == "sway" else 2
         force = np.zeros(3)
         force[axis] = coefficient * abs(velocity[axis]) * velocity[axis]
-        drag += np.concatenate([force, np.cross((x, 0.0, 0.0), force)])
+        drag += np.concatenate([force, skew((x, 0.0, 0.0)) @ force])
     return drag
 
 
@@ -81,7 +81,7 @@ def solve(
         water = np.concatenate([r.T @ current, np.zeros(3)])
         relative = nu - water
         down = r.T @ np.array([0.0, 0.0, 1.0])
-        restoring = np.concatenate([excess_weight * down, np.cross(arm, down)])
+        restoring = np.concatenate([excess_weight * down, skew(arm) @ down])
         force = wrench + restoring - coriolis(m, relative) @ relative
         force = force - linear @ relative - quadratic * np.abs(relative) * relative
         force = force - np.einsum("ijk,j,k->i", couplings, relative, np.abs(relative))
@@ -91,7 +91,7 @@ def solve(
         for axis, numbers in blends:
             force = force - blended_drag(axis, *numbers, relative)
         # The water's velocity is constant in NED, hence turns in the body frame.
-        turning = np.concatenate([-np.cross(nu[3:], water[:3]), np.zeros(3)])
+        turning = np.concatenate([-skew(nu[3:]) @ water[:3], np.zeros(3)])
         return np.concatenate([r @ nu[:3], (r @ skew(nu[3:])).ravel(), inverse @ force + turning])
 
     y0 = np.concatenate([position, start.ravel(), velocity])
