@@ -113,6 +113,7 @@ def make_landing(composition: Composition) -> Land:
     ) -> StepOutcome:
         pose = pose_from_parts(point.attitude, point.position)
         arrived = carry(parameters.water, start, steps * parameters.timing.h, pose)
-        return arrival(state, arrived, point.momentum, Progress(True, ACCEPTED, steps, iterations, 0, 0.0))
+        progress = Progress(True, ACCEPTED, steps, iterations, 0, 0.0)
+        return arrival(state, arrived, point.momentum, state.fluid_memory, progress)
 
     return land
