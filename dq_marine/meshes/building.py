@@ -84,11 +84,14 @@ def build_vehicle(mesh: Path, choices: Choices, progress: Progress) -> BuiltVehi
     righting = np.concatenate([np.zeros(2), np.diag(stiffness), np.zeros(1)])
     linear, why_linear = linear_damping(form, drag, inertia + added, righting, natural)
     ahead = (linear[0] + drag.quadratic[0] * form.speed) * form.speed
+    damping = {"linear": rounded(linear), "quadratic": rounded(drag.quadratic)}
+    if natural is not None:
+        damping["wave_radiation"] = rounded(np.maximum(natural, 0.0))
     limits, why_limits = wrench_limits(hull, choices, ahead, form.speed)
     content = _content(mesh, hull, choices, form, drag) | {
         "rigid_body": body,
         "added_mass": added.tolist(),
-        "damping": {"linear": rounded(linear), "quadratic": rounded(drag.quadratic)},
+        "damping": damping,
         "limits": {"wrench": rounded(limits)},
     }
     if hull.waterline is not None:

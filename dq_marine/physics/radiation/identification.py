@@ -16,7 +16,7 @@ import numpy as np
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.fluid_memory import LATERAL, VERTICAL, Plane
 from dq_marine.physics.radiation.checks import PLANE_NAMES, checked_plane
-from dq_marine.physics.radiation.least_squares import robust_least_squares
+from dq_marine.physics.radiation.least_squares import robust_least_squares, soft_l1
 from dq_marine.physics.radiation.model import Array, Quality, RadiationModel, SectionModel
 from dq_marine.physics.waves.radiation import RadiationTable
 
@@ -35,10 +35,13 @@ LEAST_DAMPING = 0.1
 MOST_DAMPING = 2.0
 """Size of an entry of the factor of D, relative to the root of the frequency."""
 
-OUTLYING = 0.05
-"""Residual, over the largest damping, from which an entry counts less."""
+OUTLYING = (10.0, 0.05)
+"""Residual, over the largest damping, from which an entry counts less: at first none does."""
 
-SETTLED = 1e-5
+STARTS = 3
+"""Of the search."""
+
+SETTLED = 1e-4
 """Relative change of the sum of squares at which the fit ends."""
 
 EVALUATIONS = 200
@@ -142,19 +145,27 @@ class PlaneProblem:
         self.ends = np.cumsum([n, self.lower[0].size, 3 * n, 6])
 
     def solve(self) -> PlaneFit:
-        """Return the fit."""
-        found = robust_least_squares(
-            self.residuals,
-            self.slopes,
-            self.start(),
-            outlying=OUTLYING,
-            settled=SETTLED,
-            evaluations=EVALUATIONS,
-        )
-        return self.fit_of(found)
+        """Return the best fit of some starts."""
+        found = [self.search(self.start(variant)) for variant in range(STARTS)]
+        losses = [soft_l1(self.residuals(unknowns), OUTLYING[-1]) for unknowns in found]
+        return self.fit_of(found[int(np.argmin(losses))])
 
-    def start(self) -> Array:
-        """Return frequencies spread over where damping is, little damping, and gains that differ."""
+    def search(self, start: Array) -> Array:
+        """Return the unknowns of a least loss near a start."""
+        found = start
+        for outlying in OUTLYING:
+            found = robust_least_squares(
+                self.residuals,
+                self.slopes,
+                found,
+                outlying=outlying,
+                settled=SETTLED,
+                evaluations=EVALUATIONS,
+            )
+        return found
+
+    def start(self, variant: int) -> Array:
+        """Return frequencies spread over where damping is, much damping, and gains that differ between variants."""
         n, omega = self.oscillators, self.table.omega
         power = np.abs(np.trace(self.table.values.real, axis1=1, axis2=2))
         share = np.cumsum(power * np.gradient(omega))
@@ -163,7 +174,7 @@ class PlaneProblem:
         low, high = np.log(self.band)
         places = loosened((np.log(quantiles[order]) - low) / (high - low) * 2.0 - 1.0)
         factor = np.where(self.lower[0] == self.lower[1], loosened(np.array(1.0 / MOST_DAMPING)), 0.0)
-        gain = 0.5 * np.cos(2.0 * np.outer(np.arange(n) + 1.0, np.arange(3) + 1.0))
+        gain = 0.5 * np.cos((2.0 + variant) * np.outer(np.arange(n) + 1.0, np.arange(3) + 1.0))
         return np.concatenate(
             [places, factor, gain.ravel(), self.table.infinite[self.upper]]
         )
@@ -246,18 +257,18 @@ class PlaneProblem:
 
 
 def squeezed(unknown: Array) -> Array:
-    """Return a number in (-1, 1) for any."""
-    return np.asarray(unknown / np.hypot(1.0, unknown))
+    """Return a number from -1 to 1 for any."""
+    return np.asarray(np.sin(np.arctan(unknown)))
 
 
 def squeezed_slope(unknown: Array) -> Array:
     """Return its derivative."""
-    return np.asarray(np.hypot(1.0, unknown) ** -3.0)
+    return np.asarray(np.cos(np.arctan(unknown)) ** 3)
 
 
 def loosened(squeezed: Array) -> Array:
-    """Return the number that is squeezed to one in (-1, 1)."""
-    return np.asarray(squeezed / np.sqrt(1.0 - squeezed**2))
+    """Return the number that is squeezed to one between -1 and 1."""
+    return np.asarray(np.tan(np.arcsin(squeezed)))
 
 
 def symmetric_product(a: Any, b: Any) -> Any:
