@@ -106,7 +106,7 @@ class Assembly:
         check_method(self.scheme, self.order)
         if self.memory is not None and self._collocated:
             raise InvalidInputError(
-                f"scheme = {self.scheme!r} of order {self.order} knows no radiation memory; give scheme=\"midpoint\" of "
+                f'scheme = {self.scheme!r} of order {self.order} knows no radiation memory; give scheme="midpoint" of '
                 'order 2 or 4, or radiation="constant"'
             )
         if self.order > 4 and self.dissipation and not self._collocated:
@@ -118,13 +118,22 @@ class Assembly:
     @property
     def terms(self) -> tuple[str, ...]:
         """Names of what the step computes besides inertia and the control wrench."""
-        names = [*(force.name for force in self._present(0.0)), *self.damping.names, self._memory_name, self.water.name]
+        names = [
+            *(force.name for force in self._present(0.0)),
+            *self.damping.names,
+            self._memory_name,
+            self.water.name,
+        ]
         return tuple(filter(None, names))
 
     @property
     def dissipation(self) -> str:
         """Names of what takes energy, or may: damping, memory and velocity forces; empty if nothing does."""
-        names = [*self.damping.names, self._memory_name, *(force.name for force in self._velocity_forces(0.0))]
+        names = [
+            *self.damping.names,
+            self._memory_name,
+            *(force.name for force in self._velocity_forces(0.0)),
+        ]
         return ", ".join(filter(None, names))
 
     @property
@@ -166,7 +175,7 @@ class Assembly:
 
     @property
     def _memory_name(self) -> str:
-        return "" if self.memory is None else self.memory.name
+        return "" if self.memory is None else "radiation memory"
 
     def _strang_timing(self, step: float) -> StrangTiming:
         timing = self.damping.timing(step)

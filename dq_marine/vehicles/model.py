@@ -170,7 +170,11 @@ class Vehicle(Table):
     @classmethod
     def _complete(cls, content: Any) -> Any:
         """Give a table of radiation the vehicle's own added mass at infinite frequency, where it has none."""
-        if not isinstance(content, Mapping) or content.get("radiation") is None or "added_mass" not in content:
+        if (
+            not isinstance(content, Mapping)
+            or content.get("radiation") is None
+            or "added_mass" not in content
+        ):
             return content
         table = content["radiation"]
         given = dict(table) if isinstance(table, RadiationTable | Mapping) else {}

@@ -26,7 +26,13 @@ class PlainBody(OneBody):
 
         def advance_arrays(parameters, state, wrench, time, steps):
             force = from_fossen(tuple(wrench.tolist()))
-            outcome = advance(unpack(self.parameters, parameters), unpack(self._composition.at_rest, state), force, time, steps)
+            outcome = advance(
+                unpack(self.parameters, parameters),
+                unpack(self._composition.at_rest, state),
+                force,
+                time,
+                steps,
+            )
             if outcome.status == ACCEPTED:
                 state[:] = pack(outcome.state)
             return (

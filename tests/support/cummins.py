@@ -1,4 +1,4 @@
-"""Cummins' equation of small motions, written separately: retardation functions by quadrature, the convolution by sums."""
+"""Cummins' equation of small motions, written separately: retardation by quadrature, the convolution by sums."""
 
 from __future__ import annotations
 

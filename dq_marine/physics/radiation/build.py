@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -30,7 +31,8 @@ LARGEST_NORM = 0.5
 """Of the matrix whose series is summed: its last term is then below 1e-24."""
 
 
-class MemoryTerm(NamedTuple):
+@dataclass(frozen=True)
+class MemoryTerm:
     """The fluid memory of a vehicle.
 
     Attributes:
@@ -40,8 +42,6 @@ class MemoryTerm(NamedTuple):
 
     model: RadiationModel
     mass_matrix: Array
-
-    name = "radiation memory"
 
     @property
     def memory(self) -> FluidMemory:
@@ -95,7 +95,9 @@ def balanced(system: Array, gain: Array) -> Array:
 
 def exponential(matrix: Array) -> Array:
     """Return the exponential of a matrix: its series for a small part of it, then squared."""
-    doublings = max(0, math.ceil(math.log2(max(float(np.abs(matrix).sum(axis=0).max()), 1e-300) / LARGEST_NORM)))
+    doublings = max(
+        0, math.ceil(math.log2(max(float(np.abs(matrix).sum(axis=0).max()), 1e-300) / LARGEST_NORM))
+    )
     small = matrix / 2**doublings
     term = total = np.eye(len(matrix))
     for k in range(1, TERMS + 1):
@@ -133,7 +135,7 @@ def radiation_model(vehicle: Vehicle) -> RadiationModel:
     if vehicle.radiation is None:
         raise InvalidInputError(
             f"radiation = 'memory', but {vehicle.name!r} has no added mass and damping by frequency: its file has no "
-            'table "radiation". Give radiation="constant", or a vehicle that has one'
+            'table "radiation". Give radiation="constant", or another vehicle'
         )
     return identified(vehicle.radiation)
 
@@ -154,7 +156,7 @@ def checked_radiation(radiation: str, vehicle: Vehicle) -> None:
     memory_term(vehicle, radiation)
     if radiation == MEMORY and vehicle.damping.wave_radiation is None:
         raise InvalidInputError(
-            f"radiation = 'memory', but the file of {vehicle.name!r} does not say how much of its linear damping stands "
-            "for the waves that it makes, which would count twice; give damping.wave_radiation, six numbers, 0 where "
-            'none, or radiation="constant"'
+            f"radiation = 'memory', but the file of {vehicle.name!r} does not say how much of its linear damping "
+            "stands for the waves that it makes, which would count twice; give damping.wave_radiation, six numbers, 0 "
+            'where none, or radiation="constant"'
         )

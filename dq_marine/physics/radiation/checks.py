@@ -6,7 +6,7 @@ import numpy as np
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.fluid_memory import LATERAL, VERTICAL, Plane
-from dq_marine.physics.radiation.model import Array
+from dq_marine.physics.radiation.model import PLANE_NAMES, Array
 from dq_marine.physics.waves.radiation import RadiationTable
 
 FEWEST = 8
@@ -21,8 +21,6 @@ MOST_ACROSS = 0.02
 MOST_AT_END = 0.75
 """Damping at the last frequency over the largest: beyond, the table ends before it falls."""
 
-PLANE_NAMES = {VERTICAL: "surge, heave and pitch", LATERAL: "sway, roll and yaw"}
-
 
 def checked_plane(table: RadiationTable, plane: Plane) -> tuple[Array, Array, Array]:
     """Return the frequencies, damping and added mass of a plane's motions, the matrices made symmetric.
@@ -33,8 +31,8 @@ def checked_plane(table: RadiationTable, plane: Plane) -> tuple[Array, Array, Ar
     omega = np.array(table.frequencies)
     if omega.size < FEWEST:
         raise InvalidInputError(
-            f"the radiation table has {omega.size} frequencies; radiation memory needs at least {FEWEST}. Solve for more "
-            'of them, or give radiation="constant"'
+            f"the radiation table has {omega.size} frequencies; radiation memory needs at least {FEWEST}. Solve for "
+            'more of them, or give radiation="constant"'
         )
     b, a = (np.array(part) for part in (table.damping, table.added_mass))
     b, a = 0.5 * (b + b.transpose(0, 2, 1)), 0.5 * (a + a.transpose(0, 2, 1))
@@ -76,7 +74,7 @@ def _check_damping(omega: Array, b: Array, name: str) -> None:
     powers = np.trace(free, axis1=1, axis2=2)
     if powers[-1] > MOST_AT_END * powers.max() > 0.0:
         raise InvalidInputError(
-            f"the radiation table's damping in {name} has not fallen at its last frequency, {omega[-1]:.4g} rad/s: it is "
-            f"{powers[-1] / powers.max():.2g} of its largest, and must be below {MOST_AT_END:g}. Solve for higher ones, "
-            'or give radiation="constant"'
+            f"the radiation table's damping in {name} has not fallen at its last frequency, {omega[-1]:.4g} rad/s: it "
+            f"is {powers[-1] / powers.max():.2g} of its largest, and must be below {MOST_AT_END:g}. Solve for higher "
+            'ones, or give radiation="constant"'
         )

@@ -1,9 +1,9 @@
 """Identifies a hull's radiation model from its table, by least squares in the frequency domain.
 
-What is fitted is B(w) + j w A(w), each motion scaled by its largest damping, with A_inf among the unknowns: a table ends
-somewhere, and the value published for infinity need not follow from what the table has (the relations of Kramers and
-Kronig tie A to B at all frequencies). Oscillators keep to frequencies near the table's, and none is so strongly or so
-weakly damped that the table could not tell. A row that does not go with its neighbours counts less (soft L1).
+What is fitted is B(w) + j w A(w), each motion scaled by its largest damping. A_inf is among the unknowns: a table
+ends somewhere, and the value published for infinity need not follow from what the table has (the relations of Kramers
+and Kronig tie A to B at all frequencies). Oscillators keep to frequencies near the table's, and none is so strongly or
+so weakly damped that the table could not tell. A row that does not go with its neighbours counts less (soft L1).
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ import numpy as np
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.fluid_memory import LATERAL, VERTICAL, Plane
-from dq_marine.physics.radiation.checks import PLANE_NAMES, checked_plane
+from dq_marine.physics.radiation.checks import checked_plane
 from dq_marine.physics.radiation.least_squares import robust_least_squares, soft_l1
-from dq_marine.physics.radiation.model import Array, Quality, RadiationModel, SectionModel
+from dq_marine.physics.radiation.model import PLANE_NAMES, Array, Quality, RadiationModel, SectionModel
 from dq_marine.physics.waves.radiation import RadiationTable
 
 GOOD = 0.05
@@ -76,7 +76,7 @@ def identified(table: RadiationTable) -> RadiationModel:
     infinite = np.array(table.infinite)
     infinite = 0.5 * (infinite + infinite.T)
     added, sections = infinite.copy(), []
-    quality: dict[str, Quality] = {}
+    quality: dict[Plane, Quality] = {}
     for plane in (VERTICAL, LATERAL):
         omega, b, a = checked_plane(table, plane)
         if not b.any():
@@ -89,7 +89,7 @@ def identified(table: RadiationTable) -> RadiationModel:
             plane, omega, (b + 1j * omega[:, None, None] * a) / scales, infinite[cut] / scales, scale
         )
         fit = fitted_plane(scaled)
-        quality[PLANE_NAMES[plane]] = fit.quality
+        quality[plane] = fit.quality
         sections += fit.sections
         added[cut] = fit.infinite * scales
     return RadiationModel(tuple(sections), added, infinite, quality)
@@ -175,9 +175,7 @@ class PlaneProblem:
         places = loosened((np.log(quantiles[order]) - low) / (high - low) * 2.0 - 1.0)
         factor = np.where(self.lower[0] == self.lower[1], loosened(np.array(1.0 / MOST_DAMPING)), 0.0)
         gain = 0.5 * np.cos((2.0 + variant) * np.outer(np.arange(n) + 1.0, np.arange(3) + 1.0))
-        return np.concatenate(
-            [places, factor, gain.ravel(), self.table.infinite[self.upper]]
-        )
+        return np.concatenate([places, factor, gain.ravel(), self.table.infinite[self.upper]])
 
     @property
     def band(self) -> tuple[float, float]:
@@ -223,14 +221,16 @@ class PlaneProblem:
         damped = self.damping(w, factor) @ x
         weighted = (factor.T * np.sqrt(w)) @ x
         columns = []
-        for i in range(n):
-            half = symmetric_product(x[:, i], 0.5 * s[:, :, 0] * damped[:, i] + w[i] ** 2 * x[:, i])
-            columns.append(-by_place[i] * s * half)
+        for k in range(n):
+            half = symmetric_product(x[:, k], 0.5 * s[:, :, 0] * damped[:, k] + w[k] ** 2 * x[:, k])
+            columns.append(-by_place[k] * s * half)
         for i, j, slope in zip(*self.lower, by_entry, strict=True):
             columns.append(-slope * s * s * np.sqrt(w[i]) * symmetric_product(x[:, i], weighted[:, j]))
         units = np.eye(3)
-        for i in range(n):
-            columns += [s * symmetric_product(x[:, i], np.broadcast_to(unit, x[:, i].shape)) for unit in units]
+        for k in range(n):
+            columns += [
+                s * symmetric_product(x[:, k], np.broadcast_to(unit, x[:, k].shape)) for unit in units
+            ]
         for i, j in zip(*self.upper, strict=True):
             entry = np.zeros((3, 3))
             entry[i, j] = entry[j, i] = 1.0

@@ -1,7 +1,7 @@
 """Least squares with outliers, by the method of Levenberg and Marquardt.
 
-SciPy's does the same, but by singular values of a few hundred rows, which BLAS shares out among threads: on a busy machine
-that takes ten times as long as the fit. Here no product is large enough, and no extra is needed.
+SciPy's does the same, but by singular values of a few hundred rows, which BLAS shares out among threads: on a busy
+machine that took a hundred times as long as the fit does here, where no product is large enough to be shared out.
 """
 
 from __future__ import annotations

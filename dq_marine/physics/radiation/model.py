@@ -17,10 +17,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.integrator.fluid_memory import Plane
+from dq_marine.integrator.fluid_memory import LATERAL, VERTICAL, Plane
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+
+PLANE_NAMES = {VERTICAL: "surge, heave and pitch", LATERAL: "sway, roll and yaw"}
 
 
 class SectionModel(NamedTuple):
@@ -42,8 +44,7 @@ class SectionModel(NamedTuple):
         """Return H(j w) at frequencies of shape (n,) [rad/s], shape (n, 3, 3)."""
         s = 1j * omega[:, None, None]
         stiff = s * s * np.eye(3) + s * self.damping + np.diag(self.frequencies**2)
-        answer: ComplexArray = s * (self.gain.T @ np.linalg.solve(stiff, self.gain + 0.0j))
-        return answer
+        return np.asarray(s * (self.gain.T @ np.linalg.solve(stiff, self.gain + 0.0j)), dtype=np.complex128)
 
     @property
     def dynamics(self) -> Array:
@@ -81,7 +82,7 @@ class RadiationModel:
     sections: tuple[SectionModel, ...]
     added_mass: Array
     published: Array
-    quality: dict[str, Quality]
+    quality: dict[Plane, Quality]
 
     @property
     def planes(self) -> tuple[Plane, ...]:
@@ -93,12 +94,20 @@ class RadiationModel:
         """What the identified A_inf has more than the published one, shape (6, 6)."""
         return self.added_mass - self.published
 
+    def summary(self) -> tuple[str, ...]:
+        """Return how many states the model has and how well it fits, each plane for reading."""
+        return tuple(
+            f"{PLANE_NAMES[plane]}: {6 * self.planes.count(plane)} states, damping to {quality.damping:.1%}, "
+            f"added mass to {quality.added_mass:.1%}"
+            for plane, quality in self.quality.items()
+        )
+
     def transfer(self, omega: Array) -> ComplexArray:
         """Return H(j w) at frequencies of shape (n,) [rad/s], in Fossen's order, shape (n, 6, 6)."""
         total = np.zeros((omega.size, 6, 6), dtype=np.complex128)
         for section in self.sections:
-            total[np.ix_(range(omega.size), section.plane.motions, section.plane.motions)] += section.transfer(
-                omega
+            total[np.ix_(range(omega.size), section.plane.motions, section.plane.motions)] += (
+                section.transfer(omega)
             )
         return total
 

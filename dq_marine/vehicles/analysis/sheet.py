@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 
 from dq_marine.checks import finite_number
+from dq_marine.errors import InvalidInputError
 from dq_marine.physics.hydrostatics.restoring import heave_period, natural_periods, restoring_frequencies
 from dq_marine.physics.manoeuvring.build import own_axis_drag
+from dq_marine.physics.radiation.build import radiation_model
 from dq_marine.vehicles.analysis.munk import munk_growth_rate
 from dq_marine.vehicles.coupling import asymmetry, largest_coupling, unit_free
 from dq_marine.vehicles.model import MOTIONS, Vehicle
@@ -51,6 +53,8 @@ class Sheet:
         translation_step: step [s] up to which translation at U is solved directly, h sigma = 2; larger steps are split.
             Infinite where nothing grows.
         validity: limits of the motions and seas that the file's numbers hold for, each for reading; empty if unknown.
+        radiation_memory: how well a model of the waves that the hull makes reproduces its table by frequency, for
+            reading, or why there is none; empty without a table.
     """
 
     name: str
@@ -73,6 +77,7 @@ class Sheet:
     restoring_step: float
     translation_step: float
     validity: tuple[str, ...] = ()
+    radiation_memory: tuple[str, ...] = ()
 
     @property
     def largest_step(self) -> float:
@@ -122,7 +127,15 @@ def vehicle_sheet(vehicle: Vehicle, *, speed: float = 1.0) -> Sheet:
         restoring_step=2.0 / fastest if fastest > 0.0 else math.inf,
         translation_step=2.0 / growth if growth > 0.0 else math.inf,
         validity=() if vehicle.validity is None else vehicle.validity.limits(),
+        radiation_memory=() if vehicle.radiation is None else _radiation_memory(vehicle),
     )
+
+
+def _radiation_memory(vehicle: Vehicle) -> tuple[str, ...]:
+    try:
+        return radiation_model(vehicle).summary()
+    except InvalidInputError as error:
+        return (f"none: {error}",)
 
 
 def terminal_speed(vehicle: Vehicle, axis: int) -> float:

@@ -42,10 +42,10 @@ def changed(**parts):
 
 
 def test_the_model_reproduces_the_table():
-    """Damping to 5 % and added mass to 8 % over all motions; of each, between the ends, to 6 % of its largest and to 9 %.
+    """Damping to 5 %, added mass to 8 % over all motions; of each, between the ends, to 6 % of its largest and to 9 %.
 
-    The row at 0.105 rad/s has added masses far below those of its neighbours, which no causal system with this damping has;
-    and those of heave and pitch at 3.14 rad/s are larger than follows from the rest.
+    The row at 0.105 rad/s has added masses far below those of its neighbours, which no causal system with this damping
+    has; and those of heave and pitch at 3.14 rad/s are larger than follows from the rest.
     """
     for quality in MODEL.quality.values():
         assert quality.damping < 0.05
@@ -144,7 +144,7 @@ def test_memory_needs_a_table_and_what_of_the_damping_it_replaces():
         Scene("supply_vessel", radiation="yes")
     content = VESSEL.model_dump()
     content["damping"]["wave_radiation"] = None
-    with pytest.raises(InvalidInputError, match="would count twice; give damping.wave_radiation"):
+    with pytest.raises(InvalidInputError, match=r"would count twice; give damping\.wave_radiation"):
         Scene(validated(content, "vehicle"), radiation="memory")
     content["damping"]["wave_radiation"] = (0.0, 0.0, 7e6, 0.0, 0.0, 0.0)
     with pytest.raises((InvalidInputError, VehicleFileError), match=r"wave_radiation\[2\].*more than"):

@@ -67,7 +67,7 @@ def test_forced_oscillation_meets_added_mass_and_damping(motion):
 
 
 def test_radiation_takes_energy_from_any_motion():
-    """The work of any velocities from rest on, and the energy that is left, add up to what has gone: exactly passive."""
+    """The work of any velocities, from rest on, is no less than the energy that the memory holds: exactly passive."""
     rng = np.random.default_rng(4)
     add_impulses, advance = join_impulses(MODEL.planes), join_sections(MODEL.planes)
     for h in (0.01, 0.3, 5.0):
