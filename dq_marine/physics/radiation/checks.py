@@ -18,7 +18,7 @@ MOST_NEGATIVE = 0.02
 MOST_ACROSS = 0.02
 """Coupling of the planes that a hull which is the same to port and starboard does not have, over the damping."""
 
-MOST_AT_END = 0.75
+MOST_AT_END = 0.95
 """Damping at the last frequency over the largest: beyond, the table ends before it falls."""
 
 

@@ -40,8 +40,7 @@ def test_environments_in_lanes_have_the_bits_of_single_ones():
     together, _ = many.reset(seed=5)
     given = actions(many, 30)
     seen = [together]
-    for action in given:
-        seen.append(many.step(np.tile(action, (3, 1)))[0])
+    seen += [many.step(np.tile(action, (3, 1)))[0] for action in given]
     for index in range(3):
         env = StationKeepingEnv(**KEYWORDS)
         alone, _ = env.reset(seed=5 + index)
