@@ -3,16 +3,16 @@
 The convolution of Cummins' equation is replaced by sections of three oscillators each. A section belongs to the motions
 of one plane, surge, heave and pitch or sway, roll and yaw, and in coordinates whose squares are energies it is
 
-    da/dt = W r,    dr/dt = -W a - D r + G v,    force on the body -G^T r                              (R3)
+    da/dt = W r,    dr/dt = -W a - D r + G v,    force on the body -G^T r                              (M3)
 
 with W diagonal and positive, D symmetric and positive semidefinite, and v the three velocities through the water. The
 energy (|a|^2 + |r|^2)/2 is what the body has put in less what D takes, whatever v is: radiation makes no energy.
 
 The flow over a duration h takes v as constant, its mean over h by the change of momentum that it causes itself,
 
-    (M + E/2) v = mu - C x / 2,    mu' = mu - C x - E v,    x' = P x + Q v,    x = (a, r)               (R4)
+    (M + E/2) v = mu - C x / 2,    mu' = mu - C x - E v,    x' = P x + Q v,    x = (a, r)               (M4)
 
-where P = exp(A h) and Q, C and E are the exact integrals of (R3) for constant v. It is symmetric in time, and exactly
+where P = exp(A h) and Q, C and E are the exact integrals of (M3) for constant v. It is symmetric in time, and exactly
 passive: kinetic energy and sections together lose what D takes. At steady speed C x + E v = 0: no force is left.
 """
 
@@ -78,7 +78,7 @@ LATERAL = Plane((1, 3, 5), pick_lateral, place_lateral)
 
 
 class Oscillators(NamedTuple):
-    """The state x of a section: the a and the r of (R3) [J^(1/2)]."""
+    """The state x of a section: the a and the r of (M3) [J^(1/2)]."""
 
     displacement: Vector3
     rate: Vector3

@@ -49,7 +49,7 @@ class MemoryTerm:
         return make_fluid_memory(self.model.planes)
 
     def numbers(self, duration: float) -> MemoryFlow:
-        """Return the numbers of the flow (R4) over a duration [s]."""
+        """Return the numbers of the flow (M4) over a duration [s]."""
         resistance, sections = np.zeros((6, 6)), []
         for model in self.model.sections:
             section, own = section_flow(model, duration)
@@ -64,7 +64,7 @@ class MemoryTerm:
 
 
 def section_flow(model: SectionModel, duration: float) -> tuple[Section, Array]:
-    """Return the numbers of a section's flow, and its E of (R4), shape (3, 3).
+    """Return the numbers of a section's flow, and its E of (M4), shape (3, 3).
 
     All are blocks of one exponential, of the linear system of x, of v that stays, and of the impulse G^T int r dt.
     """

@@ -2,7 +2,7 @@
 
 In one plane of motions, with the sections' oscillators side by side,
 
-    H(s) = s G^T (s^2 + s D + W^2)^-1 G,    H(j w) = B(w) + j w (A(w) - A_inf)                          (R5)
+    H(s) = s G^T (s^2 + s D + W^2)^-1 G,    H(j w) = B(w) + j w (A(w) - A_inf)                          (M5)
 
 W is diagonal and positive, D symmetric, positive semidefinite and in blocks of sections, G real. Whatever the numbers
 are, H is stable and passive, H(0) = 0, and its kernel K(t) starts with G^T G: what Perez and Fossen (2009) ask of such
@@ -48,7 +48,7 @@ class SectionModel(NamedTuple):
 
     @property
     def dynamics(self) -> Array:
-        """The matrix of (R3) for x = (a, r), shape (6, 6)."""
+        """The matrix of (M3) for x = (a, r), shape (6, 6)."""
         w = np.diag(self.frequencies)
         return np.block([[np.zeros((3, 3)), w], [-w, -self.damping]])
 
