@@ -23,7 +23,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
-from dq_marine.algebra.matrix3 import Matrix3, transform
 from dq_marine.algebra.nesting import folded, nested
 from dq_marine.algebra.spatial import (
     ZERO,
@@ -34,6 +33,7 @@ from dq_marine.algebra.spatial import (
     spatial_add_scaled,
     spatial_subtract,
 )
+from dq_marine.algebra.table import Table
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, scale
 
 NO_VECTOR = (0.0, 0.0, 0.0)
@@ -84,18 +84,14 @@ class Oscillators(NamedTuple):
     rate: Vector3
 
 
-class Section(NamedTuple):
-    """The numbers of a section's flow over one duration.
+Section: TypeAlias = Table
+"""The numbers of a section's flow over one duration: 3 x 3 blocks, row by row, from the places below on.
 
-    Attributes:
-        impulse: C in blocks of displacement and rate.
-        propagator: P in blocks: displacement by displacement and by rate, rate by displacement and by rate.
-        forcing: Q in blocks.
-    """
+They stay in memory: as variables, hundreds of numbers would fill the registers of a step over and over.
+"""
 
-    impulse: tuple[Matrix3, Matrix3]
-    propagator: tuple[Matrix3, Matrix3, Matrix3, Matrix3]
-    forcing: tuple[Matrix3, Matrix3]
+IMPULSE, PROPAGATOR, FORCING, RESISTANCE = 0, 18, 54, 72
+"""Where C, by displacement and by rate, P, displacement by both and rate by both, Q and E begin."""
 
 
 class MemoryFlow(NamedTuple):
@@ -103,16 +99,15 @@ class MemoryFlow(NamedTuple):
 
     Attributes:
         velocity: (M + E/2)^-1.
-        resistance: E.
         sections: a `Section` for each, nested.
     """
 
     velocity: Matrix6
-    resistance: Matrix6
     sections: Any
 
 
 AddImpulses: TypeAlias = Callable[[Any, Any, Spatial], Spatial]
+AddResistances: TypeAlias = Callable[[Any, Spatial, Spatial], Spatial]
 AdvanceSections: TypeAlias = Callable[[Any, Any, Spatial], Any]
 Combine: TypeAlias = Callable[[float, Any, float, Any], Any]
 Flow: TypeAlias = Callable[[Any, Spatial, Any], tuple[Spatial, Any]]
@@ -147,23 +142,39 @@ NO_MEMORY = FluidMemory((), no_flow, no_states)
 """Water that forgets."""
 
 
+def block_transform(section: Section, place: int, vector: Vector3) -> Vector3:
+    """Return the product of the block at a place with a vector."""
+    x, y, z = vector
+    return (
+        section[place] * x + section[place + 1] * y + section[place + 2] * z,
+        section[place + 3] * x + section[place + 4] * y + section[place + 5] * z,
+        section[place + 6] * x + section[place + 7] * y + section[place + 8] * z,
+    )
+
+
 def section_impulse(section: Section, state: Oscillators) -> Vector3:
     """Return C x."""
-    return add(transform(section.impulse[0], state.displacement), transform(section.impulse[1], state.rate))
+    by_displacement = block_transform(section, IMPULSE, state.displacement)
+    return add(by_displacement, block_transform(section, IMPULSE + 9, state.rate))
 
 
 def section_after(section: Section, state: Oscillators, velocity: Vector3) -> Oscillators:
     """Return P x + Q v."""
-    p, q = section.propagator, section.forcing
-    displacement = add(transform(p[0], state.displacement), transform(p[1], state.rate))
-    rate = add(transform(p[2], state.displacement), transform(p[3], state.rate))
+    a, r = state.displacement, state.rate
+    displacement = add(block_transform(section, PROPAGATOR, a), block_transform(section, PROPAGATOR + 9, r))
+    rate = add(block_transform(section, PROPAGATOR + 18, a), block_transform(section, PROPAGATOR + 27, r))
     return Oscillators(
-        add(displacement, transform(q[0], velocity)),
-        add(rate, transform(q[1], velocity)),
+        add(displacement, block_transform(section, FORCING, velocity)),
+        add(rate, block_transform(section, FORCING + 9, velocity)),
     )
 
 
 def no_impulse(sections: Any, states: Any, total: Spatial) -> Spatial:
+    """Return the total as it is."""
+    return total
+
+
+def no_resistance(sections: Any, twist: Spatial, total: Spatial) -> Spatial:
     """Return the total as it is."""
     return total
 
@@ -186,6 +197,21 @@ def join_impulses(planes: tuple[Plane, ...]) -> AddImpulses:
         return add_impulses
 
     return folded(link, planes, no_impulse)
+
+
+def join_resistances(planes: tuple[Plane, ...]) -> AddResistances:
+    """Return (sections, twist, total) -> total + E v of all sections."""
+
+    def link(plane: Plane, rest: AddResistances) -> AddResistances:
+        pick, place = plane.pick, plane.place
+
+        def add_resistances(sections: Any, twist: Spatial, total: Spatial) -> Spatial:
+            first = place(block_transform(sections[0], RESISTANCE, pick(twist)))
+            return rest(sections[1], twist, spatial_add(total, first))
+
+        return add_resistances
+
+    return folded(link, planes, no_resistance)
 
 
 def join_sections(planes: tuple[Plane, ...]) -> AdvanceSections:
@@ -227,14 +253,15 @@ def join_combined(planes: tuple[Plane, ...]) -> Combine:
 @functools.cache
 def make_fluid_memory(planes: tuple[Plane, ...]) -> FluidMemory:
     """Return the functions of sections in the given planes; equal planes have the same functions."""
-    add_impulses, advance_sections = join_impulses(planes), join_sections(planes)
+    add_impulses, add_resistances = join_impulses(planes), join_resistances(planes)
+    advance_sections = join_sections(planes)
 
     def memory_flow(numbers: MemoryFlow, momentum: Spatial, state: Any) -> tuple[Spatial, Any]:
-        impulse = add_impulses(numbers.sections, state, ZERO)
+        sections = numbers.sections
+        impulse = add_impulses(sections, state, ZERO)
         twist = matrix6_transform(numbers.velocity, spatial_add_scaled(momentum, -0.5, impulse))
-        left = spatial_subtract(momentum, impulse)
-        after = spatial_subtract(left, matrix6_transform(numbers.resistance, twist))
-        return after, advance_sections(numbers.sections, state, twist)
+        after = spatial_subtract(momentum, add_resistances(sections, twist, impulse))
+        return after, advance_sections(sections, state, twist)
 
     undisturbed = nested([Oscillators(NO_VECTOR, NO_VECTOR)] * len(planes))
     return FluidMemory(undisturbed, memory_flow, join_combined(planes))

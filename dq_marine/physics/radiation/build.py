@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dq_marine.algebra.nesting import nested
+from dq_marine.algebra.table import Table
 from dq_marine.checks import one_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.fluid_memory import FluidMemory, MemoryFlow, Section, make_fluid_memory
-from dq_marine.physics.matrices import angular_first, matrix3, matrix6
+from dq_marine.physics.matrices import angular_first, matrix6
 from dq_marine.physics.radiation.identification import identified
 from dq_marine.physics.radiation.model import Array, RadiationModel, SectionModel
 
@@ -56,11 +57,7 @@ class MemoryTerm:
             resistance[np.ix_(model.plane.motions, model.plane.motions)] += own
             sections.append(section)
         velocity = np.linalg.inv(self.mass_matrix + 0.5 * resistance)
-        return MemoryFlow(
-            matrix6(angular_first(0.5 * (velocity + velocity.T))),
-            matrix6(angular_first(resistance)),
-            nested(sections),
-        )
+        return MemoryFlow(matrix6(angular_first(0.5 * (velocity + velocity.T))), nested(sections))
 
 
 def section_flow(model: SectionModel, duration: float) -> tuple[Section, Array]:
@@ -76,12 +73,14 @@ def section_flow(model: SectionModel, duration: float) -> tuple[Section, Array]:
     size = np.linalg.norm(model.gain) or 1.0
     p, q, c = flow[:6, :6], flow[:6, 6:9] * size, flow[9:, :6] * size
     resistance = flow[9:, 6:9] * size**2
-    section = Section(
-        (matrix3(c[:, :3]), matrix3(c[:, 3:])),
-        (matrix3(p[:3, :3]), matrix3(p[:3, 3:]), matrix3(p[3:, :3]), matrix3(p[3:, 3:])),
-        (matrix3(q[:3]), matrix3(q[3:])),
+    resistance = 0.5 * (resistance + resistance.T)
+    blocks = (
+        *(c[:, :3], c[:, 3:]),
+        *(p[:3, :3], p[:3, 3:], p[3:, :3], p[3:, 3:]),
+        *(q[:3], q[3:]),
+        resistance,
     )
-    return section, 0.5 * (resistance + resistance.T)
+    return Table(np.ravel(blocks).tolist()), resistance
 
 
 def balanced(system: Array, gain: Array) -> Array:

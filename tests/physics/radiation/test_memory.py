@@ -6,9 +6,9 @@ from support.bodies import PlainBody
 from support.cummins import free_motion, retardation
 
 from dq_marine import Scene
-from dq_marine.algebra.spatial import from_fossen, matrix6_transform, to_fossen
+from dq_marine.algebra.spatial import ZERO, from_fossen, to_fossen
 from dq_marine.backend.packing import pack
-from dq_marine.integrator.fluid_memory import join_impulses, join_sections
+from dq_marine.integrator.fluid_memory import join_impulses, join_resistances, join_sections
 from dq_marine.integrator.inertia import momentum_from_twist
 from dq_marine.physics.radiation.build import memory_term, radiation_model
 from dq_marine.vehicles import load_vehicle
@@ -35,16 +35,22 @@ def slope(steps, errors):
     return np.polyfit(np.log(steps), np.log(errors), 1)[0]
 
 
+def impulse_of(numbers, state, twist):
+    """C x + E v of all sections."""
+    impulse = join_impulses(MODEL.planes)(numbers.sections, state, ZERO)
+    return join_resistances(MODEL.planes)(numbers.sections, twist, impulse)
+
+
 def forced_wrenches(omega, h, periods, motion):
     """Mean wrench of the memory over each step of a forced oscillation cos(w t) of one velocity, (n, 6)."""
-    add_impulses, advance = join_impulses(MODEL.planes), join_sections(MODEL.planes)
+    advance = join_sections(MODEL.planes)
     numbers, state = TERM.numbers(h), TERM.memory.rest
     wrenches = []
     for n in range(int(periods * 2.0 * np.pi / omega / h)):
         velocity = np.zeros(6)
         velocity[motion] = np.cos(omega * (n + 0.5) * h)
         twist = from_fossen(velocity)
-        impulse = add_impulses(numbers.sections, state, matrix6_transform(numbers.resistance, twist))
+        impulse = impulse_of(numbers, state, twist)
         wrenches.append(-np.array(to_fossen(impulse)) / h)
         state = advance(numbers.sections, state, twist)
     return np.array(wrenches)
@@ -69,13 +75,13 @@ def test_forced_oscillation_meets_added_mass_and_damping(motion):
 def test_radiation_takes_energy_from_any_motion():
     """The work of any velocities, from rest on, is no less than the energy that the memory holds: exactly passive."""
     rng = np.random.default_rng(4)
-    add_impulses, advance = join_impulses(MODEL.planes), join_sections(MODEL.planes)
+    advance = join_sections(MODEL.planes)
     for h in (0.01, 0.3, 5.0):
         numbers, state, work = TERM.numbers(h), TERM.memory.rest, 0.0
         for _ in range(300):
             velocity = RATES * rng.normal(size=6)
             twist = from_fossen(velocity)
-            impulse = add_impulses(numbers.sections, state, matrix6_transform(numbers.resistance, twist))
+            impulse = impulse_of(numbers, state, twist)
             work += velocity @ np.array(to_fossen(impulse))
             state = advance(numbers.sections, state, twist)
             stored = 0.5 * np.sum(pack(state) ** 2)
@@ -101,12 +107,12 @@ def test_the_flow_never_adds_energy_however_long_it_is():
 
 def test_a_steady_motion_meets_no_force():
     """H(0) = 0: after a long time at one velocity nothing is left, to round-off beside the first impulse."""
-    add_impulses, advance = join_impulses(MODEL.planes), join_sections(MODEL.planes)
+    advance = join_sections(MODEL.planes)
     numbers, state = TERM.numbers(1.0), TERM.memory.rest
     twist = from_fossen(RATES)
     impulses = []
     for _ in range(1500):
-        impulse = add_impulses(numbers.sections, state, matrix6_transform(numbers.resistance, twist))
+        impulse = impulse_of(numbers, state, twist)
         impulses.append(np.abs(to_fossen(impulse)))
         state = advance(numbers.sections, state, twist)
     assert (impulses[-1] < 1e-9 * np.max(impulses, axis=0)).all()
