@@ -77,6 +77,6 @@ def check_tables(structures: Sequence[Any]) -> None:
     if first and any(tables_in(other) != first for other in structures[1:]):
         raise InvalidInputError(
             "the bodies of a batch are in different seas or gusts, answer to them by different tables, or remember "
-            "their own waves by different models; give all the same weather (a seed fixes it), and vehicles of one size "
-            "and one table of radiation, or bodies in batches of their own"
+            "their own waves by different models; give all the same weather (a seed fixes it), and vehicles of one "
+            "size and one table of radiation, or bodies in batches of their own"
         )
