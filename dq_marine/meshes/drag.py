@@ -224,7 +224,7 @@ def linear_damping(
         if radiated is not None:
             linear[axis] += max(float(radiated[axis]), 0.0)
             reasons.append(
-                f"{motion}: {radiated[axis]:.4g} of wave radiation at the natural frequency (wave_radiation, which "
+                f"{motion}: {radiated[axis]:.4g} of wave radiation at the natural frequency (wave_share, which "
                 'radiation = "memory" takes out)'
             )
     return tuple(linear.tolist()), tuple(reasons)

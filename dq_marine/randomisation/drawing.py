@@ -113,8 +113,6 @@ def varied_damping(draw: DampingDraw, vehicle: Vehicle, rng: np.random.Generator
         coupling = drawn_coupling(draw.linear_coupling, 6, rng)
         factors = _factors(draw.linear, 6, rng)
         changed["linear"] = scaled_and_coupled(vehicle.linear_damping, factors, coupling, scale).tolist()
-        if vehicle.damping.wave_radiation is not None:
-            changed["wave_radiation"] = (np.array(vehicle.damping.wave_radiation) * factors).tolist()
         for one, own in zip(blended, vehicle.damping.blended, strict=True):
             if own.quadratic == 0.0:
                 one["linear"] *= factors[own.index]

@@ -25,6 +25,7 @@ from dq_marine.physics.fields import (
     Matrix6,
     NonNegative6,
     Positive,
+    Share6,
     Table,
     Vector3,
     Vector6,
@@ -76,15 +77,15 @@ class Damping(Table):
         quadratic: coefficients of |nu_i| nu_i [N s^2/m^2, N m s^2].
         couplings: forces by other velocities and speeds: drag that couples axes, lift.
         blended: linear damping at rest that gives way to quadratic, or to none, under way.
-        wave_radiation: the part of `linear`, on its diagonal, that stands for the waves that the hull makes; None where
-            it is not known. Radiation memory, see `dq_marine.Scene`, takes its place.
+        wave_share: how much of each number on the diagonal of `linear` stands for the waves that the hull makes, from 0
+            to 1; None where it is not known. Radiation memory, see `dq_marine.Scene`, takes its place.
     """
 
     linear: Matrix6
     quadratic: NonNegative6 = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     couplings: tuple[DampingCoupling, ...] = ()
     blended: tuple[BlendedDamping, ...] = ()
-    wave_radiation: NonNegative6 | None = None
+    wave_share: Share6 | None = None
 
 
 class Limits(Table):
@@ -277,11 +278,8 @@ class Vehicle(Table):
 
         Couplings go in proportion, so that what is left takes energy.
         """
-        linear = self.linear_damping
-        whole = np.diag(linear)
-        part = np.array(self.damping.wave_radiation or (0.0,) * 6)
-        left = np.sqrt(1.0 - np.divide(part, whole, out=np.zeros(6), where=whole > 0.0))
-        return np.asarray(left[:, None] * linear * left)
+        left = np.sqrt(1.0 - np.array(self.damping.wave_share or (0.0,) * 6))
+        return np.asarray(left[:, None] * self.linear_damping * left)
 
     @property
     def damping_at_rest(self) -> NDArray[np.float64]:

@@ -118,8 +118,8 @@ def test_a_barge_from_a_mesh_remembers_its_waves(tmp_path: Path) -> None:
     mesh, file = write_stl(tmp_path / "barge.stl", box(10.0, 4.0, 2.0)), tmp_path / "barge.toml"
     vehicle_from_mesh(mesh, file, Choices(draft=1.0, panels=800, frequencies=10))
     vehicle = load_vehicle(file)
-    assert vehicle.damping.wave_radiation is not None
-    assert (np.array(vehicle.damping.wave_radiation)[2:5] > 0.0).all()
+    assert vehicle.damping.wave_share is not None
+    assert (np.array(vehicle.damping.wave_share)[2:5] > 0.0).all()
     for quality in radiation_model(vehicle).quality.values():
         assert quality.damping < 0.15
         assert quality.added_mass < 0.03

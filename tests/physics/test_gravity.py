@@ -138,9 +138,7 @@ def with_linear_damping(name, factor):
     """A catalogue vehicle with so many times its linear damping."""
     content = load_vehicle(name).model_dump()
     linear = factor * np.array(content["damping"]["linear"])
-    waves = content["damping"]["wave_radiation"]
-    changed = {"linear": linear.tolist(), "wave_radiation": waves and (factor * np.array(waves)).tolist()}
-    content["damping"] = content["damping"] | changed
+    content["damping"] = content["damping"] | {"linear": linear.tolist()}
     content.pop("radiation")  # a table by frequency does not scale
     return validated(content, name)
 

@@ -21,7 +21,6 @@ def check_damping(vehicle: Vehicle) -> None:
         Implausible: for the first contradiction found.
     """
     _check_dissipative(vehicle)
-    _check_wave_radiation(vehicle)
     _check_couplings(vehicle)
     _check_cross_flow(vehicle)
     _check_blended(vehicle)
@@ -37,21 +36,6 @@ def _check_dissipative(vehicle: Vehicle) -> None:
             "the linear damping feeds energy in",
             "write damping positive: minus the derivatives X_u, Y_v, ...",
         )
-
-
-def _check_wave_radiation(vehicle: Vehicle) -> None:
-    if vehicle.damping.wave_radiation is None:
-        return
-    for axis, (part, whole) in enumerate(
-        zip(vehicle.damping.wave_radiation, np.diag(vehicle.linear_damping).tolist(), strict=True)
-    ):
-        if part > whole:
-            raise Implausible(
-                f"damping.wave_radiation[{axis}]",
-                f"{part:g}",
-                f"it is more than the {whole:g} of damping.linear, whose part it is",
-                "add it to damping.linear, or give 0",
-            )
 
 
 def _check_couplings(vehicle: Vehicle) -> None:

@@ -143,9 +143,11 @@ def test_memory_needs_a_table_and_what_of_the_damping_it_replaces():
     with pytest.raises(InvalidInputError, match="give one of"):
         Scene("supply_vessel", radiation="yes")
     content = VESSEL.model_dump()
-    content["damping"]["wave_radiation"] = None
-    with pytest.raises(InvalidInputError, match=r"would count twice; give damping\.wave_radiation"):
+    content["damping"]["wave_share"] = None
+    with pytest.raises(InvalidInputError, match=r"would count twice; give damping\.wave_share"):
         Scene(validated(content, "vehicle"), radiation="memory")
-    content["damping"]["wave_radiation"] = (0.0, 0.0, 7e6, 0.0, 0.0, 0.0)
-    with pytest.raises((InvalidInputError, VehicleFileError), match=r"wave_radiation\[2\].*more than"):
+    content["damping"]["wave_share"] = (0.0, 0.0, 1.2, 0.0, 0.0, 0.0)
+    with pytest.raises(
+        (InvalidInputError, VehicleFileError), match=r"wave_share\.2 = 1\.2: .*less than or equal to 1"
+    ):
         validated(content, "vehicle")
