@@ -55,9 +55,11 @@ def scattered(base: Content, rng: np.random.Generator) -> Content:
         "buoyancy": water
         | {"volume": size * water["volume"], "center": around(water["center"], SPREAD, rng).tolist()},
         "added_mass": around(np.diag(base["added_mass"]), SPREAD, rng).tolist(),
-        "damping": {
+        "damping": damping
+        | {
             "linear": around(np.diag(damping["linear"]), SPREAD, rng).tolist(),
             "quadratic": around(damping["quadratic"], SPREAD, rng).tolist(),
+            "couplings": couplings_around(damping["couplings"], SPREAD, rng),
         },
     }
 
@@ -80,9 +82,11 @@ def coupled(base: Content, rng: np.random.Generator) -> Content:
         },
         "buoyancy": water | {"volume": volume, "center": offset(water["center"], rng)},
         "added_mass": with_diagonal(added_mass, rng).tolist(),
-        "damping": {
+        "damping": damping
+        | {
             "linear": with_diagonal(linear, rng).tolist(),
             "quadratic": around(damping["quadratic"], WIDE_SPREAD, rng).tolist(),
+            "couplings": couplings_around(damping["couplings"], WIDE_SPREAD, rng),
         },
     }
 
@@ -91,6 +95,11 @@ def around(numbers: Any, spread: float, rng: np.random.Generator) -> Array:
     """Return numbers times factors between 1 - spread and 1 + spread."""
     values = np.array(numbers, dtype=float)
     return values * rng.uniform(1.0 - spread, 1.0 + spread, values.shape)
+
+
+def couplings_around(couplings: Any, spread: float, rng: np.random.Generator) -> list[Content]:
+    """Return the tables of couplings, each coefficient scattered."""
+    return [one | {"coefficient": float(around(one["coefficient"], spread, rng))} for one in couplings]
 
 
 def offset(point: Any, rng: np.random.Generator) -> list[float]:

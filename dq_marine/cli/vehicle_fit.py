@@ -16,6 +16,7 @@ EPILOG = examples(
     "dq-marine vehicles fit bluerov2_heavy --log run.csv --out fitted.toml",
     "dq-marine vehicles fit my_rov.toml --log pool.csv --fit linear,quadratic,gains --no-plot",
     "dq-marine vehicles fit my_rov.toml --log sea.csv --current 0.1,-0.2,0 --json",
+    "dq-marine vehicles fit my_rov.toml --log sea.csv --fit quadratic,current",
     "dq-marine vehicles check fitted.toml",
 )
 
@@ -33,7 +34,8 @@ def fit(
         typer.Option(
             "--fit",
             help="What is free: added_mass (its diagonal, couplings in proportion) or added_mass_full, linear, "
-            "quadratic, couplings (lift), cross_flow, gains (of thrusters and fins).",
+            "quadratic, couplings (lift), cross_flow, gains (of thrusters and fins), current (north and east, the "
+            "same throughout).",
         ),
     ] = "added_mass,linear,quadratic,couplings,cross_flow",
     out: Annotated[
@@ -68,7 +70,11 @@ def fit(
         ),
     ] = None,
     current: Annotated[
-        str, typer.Option("--current", help="Velocity of the water in m/s: north,east,down.")
+        str,
+        typer.Option(
+            "--current",
+            help="Velocity of the water in m/s: north,east,down; with --fit current, what the search begins from.",
+        ),
     ] = "0,0,0",
     json: Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,

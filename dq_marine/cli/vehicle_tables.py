@@ -98,8 +98,11 @@ def _masses(sheet: Sheet) -> list[tuple[str, str]]:
 def _motions(sheet: Sheet) -> list[tuple[str, str]]:
     floats = math.isfinite(sheet.heave_period)
     heave = [("natural period of heave", f"{_number(sheet.heave_period)} s")] if floats else []
+    own = sheet.service_speed
+    service = [] if own is None else [("service speed, by its own propeller", f"{own:g} m/s")]
     return [
         *heave,
+        *service,
         ("natural period of roll, pitch", f"{_number(sheet.roll_period)} s, {_number(sheet.pitch_period)} s"),
         *((f"terminal speed in {motion}", _terminal(sheet, motion)) for motion in MOTIONS),
     ]
@@ -121,7 +124,12 @@ def _terminal(sheet: Sheet, motion: str) -> str:
     speed = sheet.terminal_speed[motion]
     if speed == 0.0:
         return "not actuated"
-    return "not damped" if math.isinf(speed) else _with_unit(sheet.terminal_speed, motion, "m/s", "rad/s")
+    if math.isinf(speed):
+        return "not damped"
+    helped = motion == "surge" and sheet.service_speed is not None
+    return _with_unit(sheet.terminal_speed, motion, "m/s", "rad/s") + (
+        ", the propeller helping" if helped else ""
+    )
 
 
 def _with_unit(values: Mapping[str, float], motion: str, linear: str, angular: str) -> str:

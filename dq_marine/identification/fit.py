@@ -20,13 +20,13 @@ from dq_marine.identification.identifiability import (
 )
 from dq_marine.identification.lanes import SegmentedLog
 from dq_marine.identification.log import Log
+from dq_marine.identification.model import Model, numbers_of
 from dq_marine.identification.parameters import (
     DEFAULT_GROUPS,
     LARGEST_THETA,
     Parameter,
     Quantity,
     parameters_of,
-    quantities_of,
 )
 from dq_marine.identification.problem import OUTPUTS, Evaluation, Problem
 from dq_marine.util.extras import extra_needed
@@ -68,7 +68,7 @@ class Conditions:
         bound: largest relative standard error of a parameter that counts as told; others are held.
         segment: length of a segment [s]; None for a thirtieth of the log, from 5 to 100 s.
         step: largest step of the integrator [s]; None for one that is accurate by the vehicle's sheet.
-        current: velocity of the water, NED [m/s].
+        current: velocity of the water, NED [m/s]; where the current is free, what the search begins from.
     """
 
     groups: Sequence[str] = DEFAULT_GROUPS
@@ -80,12 +80,12 @@ class Conditions:
 
 @dataclass(frozen=True)
 class Estimate:
-    """One number of the vehicle.
+    """One number of the vehicle, or of the water.
 
     Attributes:
         label: for people.
         unit: of the values.
-        nominal: in the vehicle's file.
+        nominal: in the vehicle's file; of the current, as it was given.
         value: found.
         standard_error: of the value.
     """
@@ -150,11 +150,12 @@ def fit_vehicle(
     conditions = conditions or Conditions()
     bound = finite_number("bound", conditions.bound, above=0.0, most=10.0)
     parameters = _parameters(vehicle, log, conditions)
-    segments = _segments(vehicle, log, conditions)
-    problem = Problem(log, vehicle, parameters, segments)
+    model = Model(vehicle, _current(conditions))
+    segments = _segments(model, log, conditions)
+    problem = Problem(log, model, parameters, segments)
     free, theta, held = list(range(len(parameters))), np.zeros(len(parameters)), list[Held]()
     watch("compiling, and asking what the log can tell")
-    problem.take_starts(problem.evaluate(theta, free))
+    problem.take_starts(theta, problem.evaluate(theta, free))
     evaluation = problem.evaluate(theta, free)
     shares = problem.shares_of_noise(theta, free, evaluation)
     settled = False
@@ -166,7 +167,7 @@ def fit_vehicle(
         theta[[one.place for one in held]] = 0.0
         before = theta.copy()
         theta, evaluation = _solved(problem, theta, free, known, watch, number)
-        problem.take_starts(evaluation)
+        problem.take_starts(theta, evaluation)
         problem.take_noise(evaluation)
         evaluation = problem.evaluate(theta, free)
         shares = problem.shares_of_noise(theta, free, evaluation)
@@ -192,7 +193,12 @@ def _parameters(vehicle: Vehicle, log: Log, conditions: Conditions) -> tuple[Par
     return parameters_of(vehicle, conditions.groups)
 
 
-def _segments(vehicle: Vehicle, log: Log, conditions: Conditions) -> SegmentedLog:
+def _current(conditions: Conditions) -> tuple[float, float, float]:
+    north, east, down = finite_array("current", conditions.current, 3).tolist()
+    return (north, east, down)
+
+
+def _segments(model: Model, log: Log, conditions: Conditions) -> SegmentedLog:
     if conditions.segment is None:
         length = min(max(log.duration / SEGMENTS, SHORTEST), LONGEST, log.duration)
     else:
@@ -200,11 +206,10 @@ def _segments(vehicle: Vehicle, log: Log, conditions: Conditions) -> SegmentedLo
         length = finite_number("segment", conditions.segment, least=least, most=log.duration)
     if conditions.step is None:
         speed = float(np.nanmax(np.abs(log.velocity_body[:, :3])))
-        step = ACCURATE_STEP * vehicle_sheet(vehicle, speed=max(speed, 1e-3)).largest_step
+        step = ACCURATE_STEP * vehicle_sheet(model.vehicle, speed=max(speed, 1e-3)).largest_step
     else:
         step = finite_number("step", conditions.step, least=log.period / MOST_STEPS)
-    current = finite_array("current", conditions.current, 3)
-    return SegmentedLog(log, vehicle, length, min(step, log.period), current.tolist())
+    return SegmentedLog(log, model, length, min(step, log.period))
 
 
 def _check_something_left(free: Sequence[int], parameters: Sequence[Parameter], held: Sequence[Held]) -> None:
@@ -285,8 +290,8 @@ def _result(
     growth, colour = _colour(evaluation.residual, problem.missing | ~noisy)
     spread = growth**2 * covariance(evaluation.jacobian)
     rms = np.sqrt(np.nansum(residuals**2, axis=0) / np.maximum(problem.readings, 1))
-    vehicle = problem.vehicle_at(theta)
-    before, after = quantities_of(problem.vehicle_at(0.0 * theta), kept), quantities_of(vehicle, kept)
+    given, found = problem.model_at(0.0 * theta), problem.model_at(theta)
+    before, after = numbers_of(given, kept), numbers_of(found, kept)
     slopes = np.array([_slopes(problem, kept, theta, index, after) for index in free]).T
     errors = np.sqrt(np.diag(slopes @ spread @ slopes.T))
     notes = _notes(problem, kept, theta[list(free)], held, spread, colour)
@@ -299,8 +304,8 @@ def _result(
         for old, new, error in zip(before, after, errors, strict=True)
     )
     return Fit(
-        problem.vehicle_at(0.0 * theta),
-        vehicle,
+        given.vehicle,
+        found.vehicle,
         estimates,
         tuple((parameters[one.place].label, one.standard_error) for one in held),
         notes,
@@ -316,9 +321,9 @@ def _result(
 def _slopes(
     problem: Problem, kept: Sequence[Parameter], theta: Array, index: int, values: Sequence[Quantity]
 ) -> list[float]:
-    """Return the derivatives of the vehicle's numbers by one parameter."""
+    """Return the derivatives of the numbers by one parameter."""
     step = -1e-6 if theta[index] > 0.0 else 1e-6
-    moved = quantities_of(problem.vehicle_at(theta + step * np.eye(len(theta))[index]), kept)
+    moved = numbers_of(problem.model_at(theta + step * np.eye(len(theta))[index]), kept)
     return [(there.value - here.value) / step for there, here in zip(moved, values, strict=True)]
 
 
@@ -352,7 +357,7 @@ def _notes(
     if held:
         names = ", ".join(problem.label(one.place) for one in held)
         notes.append(
-            f"The log does not tell {names}: held as the file has them. The other numbers are right if these are."
+            f"The log does not tell {names}: held as they were given. The other numbers are right if these are."
         )
     for one, other, correlation in correlated(spread)[:5]:
         notes.append(
@@ -366,12 +371,12 @@ def _notes(
     ]
     if edge:
         notes.append(
-            f"{', '.join(edge)}: at the end of its range, about ten times the file's value or a tenth of it; do not "
-            "trust it."
+            f"{', '.join(edge)}: at the end of its range, about ten times the file's value or a tenth of it, of a "
+            f"current {LARGEST_THETA:g} m/s; do not trust it."
         )
     if colour:
         notes.append(
-            f"The residuals of {colour} are no white noise: something is missing in the model, such as a current. "
-            "Standard errors are enlarged for it."
+            f"The residuals of {colour} are no white noise: something is missing in the model, such as a current "
+            "(which may be fitted, too). Standard errors are enlarged for it."
         )
     return tuple(notes)

@@ -1,4 +1,4 @@
-"""Segments of a log, simulated in lanes: each with its own start, for many vehicles at once."""
+"""Segments of a log, simulated in lanes: each with its own start, for many vehicles and currents at once."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.identification.log import Log
-from dq_marine.identification.parameters import Parameter, parameters_of, vehicle_with
+from dq_marine.identification.model import Model, model_with
+from dq_marine.identification.parameters import CURRENT, Parameter, parameters_of
 from dq_marine.simulation.batch import Batch
 from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import Vehicle
@@ -18,6 +19,10 @@ Array = NDArray[np.float64]
 
 GUARD = 1e-3
 """Theta of a lane that nobody reads: it differs in all that may be fitted, so one compiled step serves all fits."""
+
+
+UNFELT = (0.0, 0.0, 1e-30)
+"""A current [m/s] that acts on nothing, yet is a term of the step: in a batch all lanes compute the same terms."""
 
 
 class Motions(NamedTuple):
@@ -52,19 +57,16 @@ class SegmentedLog:
         segment: that each of these belongs to.
     """
 
-    def __init__(
-        self, log: Log, vehicle: Vehicle, segment_time: float, step: float, current: Sequence[float]
-    ) -> None:
+    def __init__(self, log: Log, model: Model, segment_time: float, step: float) -> None:
         """Cut a log.
 
         Args:
             log: to be cut.
-            vehicle: as its file has it.
+            model: the vehicle as its file has it, in the current as it was given.
             segment_time: about how long a segment is [s].
             step: largest step of the integrator [s].
-            current: velocity of the water, NED [m/s].
         """
-        self._vehicle, self._current, self._inputs = vehicle, tuple(current), log.inputs
+        self._model, self._inputs = model, log.inputs
         self._substeps = max(1, int(np.ceil(log.period / step * (1.0 - 1e-9))))
         self._step = log.period / self._substeps
         grid = (log.time - log.time[0]) / log.period
@@ -78,7 +80,8 @@ class SegmentedLog:
         self.segment, self._node = np.divmod(node[self.rows], self.length)
         weight = grid[self.rows] - node[self.rows]
         self._weight = np.where(np.abs(weight) < 1e-4, 0.0, weight)[:, None]
-        self._guard = vehicle_with(vehicle, guards := _all_parameters(vehicle), np.full(len(guards), GUARD))
+        guards = _all_parameters(model.vehicle)
+        self._guard = model_with(model, guards, [GUARD] * len(guards))
         self._channels = self._channel_states() if log.inputs.actuation == "thrusters" else None
 
     @property
@@ -86,21 +89,21 @@ class SegmentedLog:
         """Place among `rows` of the first row of each segment."""
         return np.searchsorted(self.segment, np.arange(self.count))
 
-    def simulate(self, vehicles: Sequence[Vehicle], starts: Sequence[Start]) -> tuple[Motions, int]:
-        """Simulate all segments, each for every pair of a vehicle and its starts.
+    def simulate(self, models: Sequence[Model], starts: Sequence[Start]) -> tuple[Motions, int]:
+        """Simulate all segments, each for every pair of a model and its starts.
 
         Args:
-            vehicles: that differ in numbers only.
-            starts: of the segments, for each vehicle.
+            models: that differ in numbers only.
+            starts: of the segments, for each model.
 
         Returns:
-            The motions at the rows of the log, and the number of segments of the first vehicle that were refused.
+            The motions at the rows of the log, and the number of segments of the first model that were refused.
         """
-        batch = self._batch(vehicles)
-        size = len(vehicles) * self.count
+        batch = self._batch(models)
+        size = len(models) * self.count
         parts = [np.concatenate([getattr(start, name) for start in starts]) for name in Start._fields]
         batch.reset(*(np.vstack([part, part[:1]]) for part in parts))
-        self._place_channels(batch, len(vehicles))
+        self._place_channels(batch, len(models))
         shapes = [(self.length + 1, size, width) for width in (3, 4, 6)]
         series = Motions(*(np.empty(shape) for shape in shapes))
         refused: set[int] = set()
@@ -108,16 +111,17 @@ class SegmentedLog:
             for name, part in zip(Motions._fields, series, strict=True):
                 part[node] = getattr(batch, name)[:size]
             if node < self.length:
-                self._drive(batch, self._held[node :: self.length], len(vehicles))
+                self._drive(batch, self._held[node :: self.length], len(models))
                 refused |= batch.refusals.keys()
         batch.close()
-        return self._at_rows(series, len(vehicles)), sum(lane < self.count for lane in refused)
+        return self._at_rows(series, len(models)), sum(lane < self.count for lane in refused)
 
-    def _scene(self, vehicle: Vehicle) -> Scene:
-        return Scene(vehicle, step=self._step, current=self._current, actuation=self._inputs.actuation)
+    def _scene(self, model: Model) -> Scene:
+        current = model.current_ned if any(model.current_ned) else UNFELT
+        return Scene(model.vehicle, step=self._step, current=current, actuation=self._inputs.actuation)
 
-    def _batch(self, vehicles: Sequence[Vehicle]) -> Batch:
-        scenes = [self._scene(vehicle) for vehicle in (*vehicles, self._guard)]
+    def _batch(self, models: Sequence[Model]) -> Batch:
+        scenes = [self._scene(model) for model in (*models, self._guard)]
         each = [scene.parameters_at(self._step) for scene in scenes]
         lanes = [one for one in each[:-1] for _ in range(self.count)] + each[-1:]
         return Batch(scenes[0].composition, lanes, self._step, len(lanes))
@@ -131,7 +135,7 @@ class SegmentedLog:
 
     def _channel_states(self) -> Array:
         """Return values and commands of all channels where segments start: they do not depend on the motion."""
-        batch = self._batch([self._vehicle])
+        batch = self._batch([self._model])
         state, found = np.zeros(2 * self._held.shape[1]), []
         for moment, command in enumerate(self._held):
             if moment % self.length == 0:
@@ -165,7 +169,7 @@ class SegmentedLog:
 
 
 def _all_parameters(vehicle: Vehicle) -> tuple[Parameter, ...]:
-    groups = ["linear", "quadratic", "couplings", "cross_flow", "gains"]
+    groups = ["linear", "quadratic", "couplings", "cross_flow", "gains", CURRENT]
     if np.linalg.eigvalsh(vehicle.added_mass_matrix).min() >= 0.0:
         groups.append("added_mass_full")
     return parameters_of(vehicle, groups)

@@ -20,14 +20,17 @@ from dq_marine.vehicles.model import MOTIONS
 Array = NDArray[np.float64]
 Content = dict[str, Any]
 
-GROUPS = ("added_mass", "added_mass_full", "linear", "quadratic", "couplings", "cross_flow", "gains")
+CURRENT = "current"
+"""The group of the water's velocity, north and east: no number of the vehicle, see `identification.model`."""
+
+GROUPS = ("added_mass", "added_mass_full", "linear", "quadratic", "couplings", "cross_flow", "gains", CURRENT)
 """What `--fit` takes."""
 
 DEFAULT_GROUPS = ("added_mass", "linear", "quadratic", "couplings", "cross_flow")
 """All that one log can tell at once: gains, masses and damping grow together, unless some are known."""
 
 LARGEST_THETA = 2.3
-"""Bound of theta: a factor of 10 to either side."""
+"""Bound of theta: a factor of 10 to either side, or that many m/s of current."""
 
 FLOOR = 1e-6
 """Of the mass matrix: added to an added mass that is not positive definite before it is factored."""
@@ -106,7 +109,7 @@ def _parameters(vehicle: Vehicle, group: str) -> list[Parameter]:
         return _of_axes(group, "quadratic damping", vehicle.quadratic_damping)
     if group == "couplings":
         return [
-            Parameter(group, _coupling_name(coupling), (number,))
+            Parameter(group, f"coupling, {coupling.name}", (number,))
             for number, coupling in enumerate(vehicle.damping.couplings)
             if coupling.coefficient
         ]
@@ -115,6 +118,10 @@ def _parameters(vehicle: Vehicle, group: str) -> list[Parameter]:
             Parameter(group, f"cross-flow drag {number}, {drag.plane}", (number,))
             for number, drag in enumerate(vehicle.cross_flow)
             if drag.section_drag
+        ]
+    if group == CURRENT:
+        return [
+            Parameter(group, f"current, {name}", (place,)) for place, name in enumerate(("north", "east"))
         ]
     return [Parameter(group, f"gain of {name}", (number,)) for number, name in enumerate(_actuators(vehicle))]
 
@@ -125,10 +132,6 @@ def _of_axes(group: str, what: str, diagonal: Array) -> list[Parameter]:
 
 def _pair_name(i: int, j: int) -> str:
     return MOTIONS[i] if i == j else f"{MOTIONS[j]} with {MOTIONS[i]}"
-
-
-def _coupling_name(coupling: Any) -> str:
-    return f"coupling, {coupling.force} by |{coupling.speed}| {coupling.velocity}"
 
 
 def _actuators(vehicle: Vehicle) -> list[str]:
@@ -147,7 +150,7 @@ def vehicle_with(vehicle: Vehicle, parameters: Iterable[Parameter], theta: Itera
 
     Args:
         vehicle: as its file has it.
-        parameters: those that differ.
+        parameters: those that differ, none of the current.
         theta: their values, of the same number.
 
     Raises:

@@ -16,9 +16,9 @@ from pydantic import ValidationError
 
 from dq_marine.identification.lanes import Motions, SegmentedLog
 from dq_marine.identification.log import Log
-from dq_marine.identification.parameters import LARGEST_THETA, Parameter, vehicle_with
+from dq_marine.identification.model import Model, model_with
+from dq_marine.identification.parameters import LARGEST_THETA, Parameter
 from dq_marine.identification.starts import AXES, measured_starts, moved, rotation_between
-from dq_marine.vehicles import Vehicle
 
 Array = NDArray[np.float64]
 
@@ -33,6 +33,9 @@ DIFFERENCE = 1e-5
 
 SEED = 0
 """Of the starts that are drawn as uncertain as the estimated ones."""
+
+SHARES = (1.0, 0.5, 0.25, 0.0)
+"""Of the change to the best starts to first order, of which each segment takes the best."""
 
 FAR = 1e6
 """Residual, over the noise, of a vehicle that cannot be simulated: so large that it is never taken."""
@@ -57,7 +60,7 @@ class Evaluation(NamedTuple):
 
 
 class Problem:
-    """A log, a vehicle and its parameters.
+    """A log, a vehicle in its water, and their parameters.
 
     Attributes:
         starts: of the segments, from which `evaluate` simulates.
@@ -67,10 +70,11 @@ class Problem:
     """
 
     def __init__(
-        self, log: Log, vehicle: Vehicle, parameters: Sequence[Parameter], segments: SegmentedLog
+        self, log: Log, model: Model, parameters: Sequence[Parameter], segments: SegmentedLog
     ) -> None:
         """Take the log, cut into segments."""
-        self._vehicle, self._parameters, self._segments = vehicle, tuple(parameters), segments
+        self._model, self._parameters, self._segments = model, tuple(parameters), segments
+        vehicle = model.vehicle
         rows = segments.rows
         self._measured = (log.position_ned[rows], log.quaternion_body_to_ned[rows], log.velocity_body[rows])
         self.missing: NDArray[np.bool_] = np.isnan(
@@ -99,9 +103,9 @@ class Problem:
         """Return a parameter's name for people."""
         return self._parameters[index].label
 
-    def vehicle_at(self, theta: Array) -> Vehicle:
-        """Return the vehicle at a theta of all parameters."""
-        return vehicle_with(self._vehicle, self._parameters, theta)
+    def model_at(self, theta: Array) -> Model:
+        """Return the vehicle and its water at a theta of all parameters."""
+        return model_with(self._model, self._parameters, theta)
 
     def evaluate(self, theta: Array, free: Sequence[int], away: Array | None = None) -> Evaluation:
         """Simulate and compare.
@@ -114,8 +118,8 @@ class Problem:
         begin = self.starts if away is None else moved(self.starts, away)
         steps = np.where(theta > LARGEST_THETA - 1.0, -DIFFERENCE, DIFFERENCE)
         try:
-            varied = [self.vehicle_at(theta + steps * np.eye(len(theta))[index]) for index in free]
-            vehicles = [self.vehicle_at(theta)] * (1 + len(self._start_axes)) + varied
+            varied = [self.model_at(theta + steps * np.eye(len(theta))[index]) for index in free]
+            models = [self.model_at(theta)] * (1 + len(self._start_axes)) + varied
         except ValidationError:
             residual = np.where(self.missing, 0.0, FAR)
             blank = np.zeros((residual.size, len(free)))
@@ -123,7 +127,7 @@ class Problem:
             return Evaluation(residual, blank, still, still, self._segments.count)
         shifted = [moved(begin, DIFFERENCE * np.eye(AXES)[axis]) for axis in self._start_axes]
         starts = [begin, *shifted, *[begin] * len(varied)]
-        motions, refused = self._segments.simulate(vehicles, starts)
+        motions, refused = self._segments.simulate(models, starts)
         residuals = self._residuals(motions)
         slopes = (residuals[1:] - residuals[:1]) / DIFFERENCE
         by_start, by_theta = np.split(slopes, [len(self._start_axes)])
@@ -140,9 +144,17 @@ class Problem:
         felt = np.linalg.norm(evaluation.jacobian, axis=0)
         return np.asarray(np.linalg.norm(other - evaluation.jacobian, axis=0) / np.maximum(felt, 1e-100))
 
-    def take_starts(self, evaluation: Evaluation) -> None:
-        """Start from the best states from now on."""
-        self.starts = moved(self.starts, evaluation.change)
+    def take_starts(self, theta: Array, evaluation: Evaluation) -> None:
+        """Start from better states from now on: each segment goes as far to the best to first order as it fits better.
+
+        All the way from a start that is far off, a segment that tumbles would jump to and fro.
+        """
+        tried = [moved(self.starts, share * evaluation.change) for share in SHARES]
+        motions, _ = self._segments.simulate([self.model_at(theta)] * len(SHARES), tried)
+        squares = (self._residuals(motions) ** 2).sum(axis=2)
+        of_segments = np.add.reduceat(squares, self._segments.first_rows, axis=1)
+        best = np.where(np.isnan(of_segments), np.inf, of_segments).argmin(axis=0)
+        self.starts = moved(self.starts, np.array(SHARES)[best, None] * evaluation.change)
 
     def take_noise(self, evaluation: Evaluation) -> None:
         """Weigh outputs by what they differ by from now on."""

@@ -14,7 +14,7 @@ class DampingAlgebra(NamedTuple):
     at(damping, twist) is D(chi); slope(damping, twist) is the derivative of D(chi) chi;
     growth(damping, s, before, after) is s times what the diagonal of D gains between two twists;
     apply(D, chi) is D chi;
-    add_scaled(m, s, D) is m + s D for a 6x6 m;
+    add_scaled(m, s, D) is m + s D for a 6x6 m, and add_slope(m, s, S) the same for a slope S;
     sandwich(D, m) is D m D.
     """
 
@@ -23,4 +23,5 @@ class DampingAlgebra(NamedTuple):
     growth: Callable[..., Spatial]
     apply: Callable[..., Any]
     add_scaled: Callable[..., Any]
+    add_slope: Callable[..., Any]
     sandwich: Callable[..., Any]

@@ -127,7 +127,7 @@ def make_quadratic_kick(algebra: DampingAlgebra) -> Kick:
 def make_node_kick(algebra: DampingAlgebra) -> Kick:
     """Return the kick (K4) for one kind of damping matrix; its implicit part is solved by Newton's method."""
     damping_at, damping_slope = algebra.at, algebra.slope
-    damping_apply, damping_add_scaled = algebra.apply, algebra.add_scaled
+    damping_apply, damping_add_slope = algebra.apply, algebra.add_slope
 
     def node_kick(
         kick: NodeKick, damping: Any, inertia: Inertia, momentum: Spatial, wrench: Spatial
@@ -140,7 +140,7 @@ def make_node_kick(algebra: DampingAlgebra) -> Kick:
         for _ in range(MAX_NODE_ITERATIONS):
             drag = damping_apply(damping_at(damping, twist), twist)
             held = spatial_add_scaled(momentum_from_twist(inertia, twist), h, drag)
-            slope = damping_add_scaled(inertia.matrix, h, damping_slope(damping, twist))
+            slope = damping_add_slope(inertia.matrix, h, damping_slope(damping, twist))
             change = matrix6_solve(slope, spatial_subtract(target, held))
             twist = select(active, spatial_add(twist, change), twist)
             active = active & (spatial_dot(change, change) > tolerance * spatial_dot(twist, twist))

@@ -67,7 +67,7 @@ def stiffens(inertia: Inertia, growth: Spatial) -> bool:
 def make_rosenbrock_kick(algebra: DampingAlgebra) -> Kick:
     """Return the kick (R1)-(R2) for one kind of damping matrix."""
     damping_at, damping_slope, damping_growth = algebra.at, algebra.slope, algebra.growth
-    damping_apply, damping_add_scaled = algebra.apply, algebra.add_scaled
+    damping_apply, damping_add_slope = algebra.apply, algebra.add_slope
 
     def excess_at(damping: Any, twist: Spatial, wrench: Spatial) -> Spatial:
         """Return g(chi)."""
@@ -80,7 +80,7 @@ def make_rosenbrock_kick(algebra: DampingAlgebra) -> Kick:
     ) -> Spatial:
         h = kick.duration
         start = twist_from_momentum(inertia, momentum)
-        system = matrix6_invert(damping_add_scaled(inertia.matrix, GAMMA * h, damping_slope(damping, start)))
+        system = matrix6_invert(damping_add_slope(inertia.matrix, GAMMA * h, damping_slope(damping, start)))
         push = spatial_scale(GAMMA * h, excess_at(damping, start, wrench))
         u1 = matrix6_transform(system, push)
 

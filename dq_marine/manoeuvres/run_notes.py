@@ -16,7 +16,15 @@ LARGEST_TILT = math.radians(60.0)
 def run_notes(vehicle: Vehicle, series: Series) -> tuple[str, ...]:
     """Return what a reader should know of a run in still water: that it did not stay level, or left its validity."""
     left = () if vehicle.validity is None else vehicle.validity.notes(series.velocity_body[:, :3])
-    return (*_tilt_notes(series), *left)
+    return (*_tilt_notes(series), *_slow_notes(vehicle, series), *left)
+
+
+def _slow_notes(vehicle: Vehicle, series: Series) -> tuple[str, ...]:
+    """Return what is to be said of a whole ship that was slower than its polynomials know."""
+    ship, slowest = vehicle.whole_ship, float(series.velocity_body[:, 0].min())
+    if ship is None or slowest >= ship.slowest:
+        return ()
+    return (f"Below {ship.slowest:.3g} m/s ahead its polynomials are continued: it had {slowest:.3g} m/s.",)
 
 
 def _tilt_notes(series: Series) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from dq_marine.manoeuvres.actuator_steering import ActuatorSteering
 from dq_marine.manoeuvres.conditions import Conditions
 from dq_marine.manoeuvres.rudder_steering import RudderSteering
 from dq_marine.manoeuvres.steering import SURGE, Steering, WrenchSteering
+from dq_marine.manoeuvres.whole_ship_steering import WholeShipSteering
 from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import Vehicle, vehicle_sheet
 from dq_marine.vehicles.analysis.sheet import terminal_speed
@@ -54,8 +55,9 @@ class Setup:
 
     @property
     def length(self) -> float:
-        """Overall length [m]."""
-        return self.vehicle.dimensions.length
+        """Length that figures are counted in [m]: between perpendiculars of a ship that says it, else overall."""
+        ship = self.vehicle.manoeuvring or self.vehicle.whole_ship
+        return self.vehicle.dimensions.length if ship is None else ship.length
 
     @property
     def time_scale(self) -> float:
@@ -72,6 +74,20 @@ class Setup:
         """Depth at which it runs: position of the body origin in NED [m]."""
         return running_depth(self.vehicle)
 
+    def check_throttle(self, throttle: float) -> None:
+        """Check a throttle, -1 to 1.
+
+        Raises:
+            InvalidInputError: the vehicle has no other than full.
+        """
+        ship = self.vehicle.whole_ship
+        if ship is not None and self.scene.actuation == "thrusters" and throttle != 1.0:
+            raise InvalidInputError(
+                f"throttle = {throttle:g}: the propeller of {self.vehicle.name!r} is in its polynomials and turns as "
+                f"at {ship.service_speed:g} m/s, never otherwise; give throttle 1, or "
+                'actuation="wrench", whose force acts besides'
+            )
+
 
 def running_depth(vehicle: Vehicle) -> float:
     """Return the depth of the body origin [m]: at rest of a vessel that floats, well below the surface of others."""
@@ -84,13 +100,16 @@ def prepared(vehicle: Vehicle, conditions: Conditions) -> Setup:
     """Return a vehicle made ready to be steered.
 
     Raises:
-        InvalidInputError: it cannot be driven ahead or turned, nothing damps it in surge, or the step is too large.
+        InvalidInputError: it cannot be driven ahead or turned, nothing damps it in surge, it has no such throttle, or
+            the step is too large.
     """
-    speed = full_speed(vehicle)
     actuation = conditions.actuation or ("thrusters" if vehicle.channels else "wrench")
+    speed = full_speed(vehicle, actuation)
     step, samples = sampling(vehicle, speed, conditions.step)
     scene = Scene(vehicle, step=step, actuation=actuation)
-    return Setup(scene, conditions, steering_of(vehicle, actuation, speed), speed, samples)
+    setup = Setup(scene, conditions, steering_of(vehicle, actuation, speed), speed, samples)
+    setup.check_throttle(conditions.throttle)
+    return setup
 
 
 def steering_of(vehicle: Vehicle, actuation: str, speed: float) -> Steering:
@@ -103,15 +122,19 @@ def steering_of(vehicle: Vehicle, actuation: str, speed: float) -> Steering:
         return WrenchSteering(vehicle)
     if vehicle.manoeuvring is not None:
         return RudderSteering(vehicle.manoeuvring, vehicle.buoyancy.water_density)
+    if vehicle.whole_ship is not None:
+        return WholeShipSteering(vehicle.whole_ship, vehicle.buoyancy.water_density, len(vehicle.channels))
     return ActuatorSteering(vehicle, speed)
 
 
-def full_speed(vehicle: Vehicle) -> float:
-    """Return about what full throttle holds [m/s].
+def full_speed(vehicle: Vehicle, actuation: str) -> float:
+    """Return about what full throttle holds [m/s]: of a whole ship by its own propeller, its service speed.
 
     Raises:
         InvalidInputError: nothing drives the vehicle ahead, or nothing damps it in surge.
     """
+    if vehicle.whole_ship is not None and actuation == "thrusters":
+        return vehicle.whole_ship.service_speed
     speed = terminal_speed(vehicle, SURGE)
     if speed == 0.0:
         raise InvalidInputError(

@@ -86,12 +86,13 @@ def stopping(
         watch: told of the progress.
 
     Raises:
-        InvalidInputError: a value is wrong, or the vehicle cannot be steered.
+        InvalidInputError: a value is wrong, or the vehicle cannot be steered, or not be stopped so.
         StepNotSolvableError: the integrator refused a step.
     """
     if order not in THROTTLES:
         raise InvalidInputError(f"order = {order!r} is unknown; give 'astern' or 'off'")
     setup = prepared(vehicle, conditions or Conditions())
+    setup.check_throttle(THROTTLES[order])
     start = approached(setup, "stopping", watch)
     run, slow = start.run, REMAINING[order] * start.speed
     while run.speed > slow and run.time < LONGEST * setup.time_scale:

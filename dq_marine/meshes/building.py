@@ -115,7 +115,7 @@ def wave_share(linear: Array, radiated: Array) -> Array:
 
 
 def rigid_body_matrix(body: Mapping[str, Any]) -> Array:
-    """Return M_RB about the body origin of a table `rigid_body` about the centre of mass (Fossen 2021, eq. 3.50)."""
+    """Return M_RB about the body origin of a table `rigid_body` about the centre of mass (Fossen 2021, ch. 3)."""
     mass, s = body["mass"], skew(np.array(body["center_of_mass"]))
     inertia = np.array(body["inertia"]) - mass * s @ s
     return np.array(np.block([[mass * np.eye(3), -mass * s], [mass * s, inertia]]))

@@ -19,29 +19,31 @@ VISCOSITY = 1.19e-6
 """Kinematic viscosity of sea water at 15 degrees C [m^2/s] (ITTC 7.5-02-01-03)."""
 
 CUBE = 1.05
-"""C_D of a cube, face on (Hoerner 1965, ch. 3, fig. 33)."""
+"""C_D of a cube, face on (Hoerner 1965, ch. 3)."""
 
 CYLINDER = 1.1
 """C_D across a long circular cylinder, below the critical Reynolds number (Hoerner 1965, ch. 3; Prestero 2001)."""
 
 SPHERE = 0.47
-"""C_D of a sphere below the critical Reynolds number (Hoerner 1965, ch. 3, fig. 10)."""
+"""C_D of a sphere below the critical Reynolds number (Hoerner 1965, ch. 3)."""
 
 ROUGHNESS = 4e-4
-"""Allowance for roughness and small parts added to C_F of a ship (Fossen 2021, sec. 6.4; ITTC 1978)."""
+"""Allowance for roughness and small parts added to C_F of a ship (Fossen 2021, ch. 6; ITTC 1978)."""
 
 FORM = 0.1
-"""Form factor k of a ship in transit (Fossen 2021, sec. 6.4)."""
+"""Form factor k of a ship in transit (Fossen 2021, ch. 6)."""
 
 SLOW = 0.1
 """Linear damping is what the quadratic takes at this part of the design speed, and at that over half the length."""
 
 RELATIVE_DAMPING = {"heave": 0.2, "roll": 0.05, "pitch": 0.2}
-"""Of a hull afloat whose radiation was not solved, in heave and pitch (as MSS, Fossen 2021); a bare hull's in roll
-(Himeno 1981, Prediction of Ship Roll Damping)."""
+"""Of a hull afloat, estimates: in heave as Dmtrx.m of MSS takes for ships, in pitch the same, both only where radiation
+was not solved; in roll that of a bare hull (how it is computed: Himeno 1981, Prediction of Ship Roll Damping).
+"""
 
 SUBMERGED_RELATIVE_DAMPING = 0.1
-"""In roll and pitch, of a vehicle under water that rights itself, at the least (as MSS, Fossen 2021)."""
+"""In roll and pitch, of a vehicle under water that rights itself, at the least: an estimate, below the 0.3 and 0.8 that
+remus100.m of MSS has."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +148,7 @@ def _surge(form: Form) -> tuple[float, str]:
     friction = 0.075 / (math.log10(reynolds) - 2.0) ** 2  # ITTC 1957
     if form.floats:
         total = (1.0 + FORM) * friction + ROUGHNESS
-        formula = f"(1 + {FORM:g}) C_F + {ROUGHNESS:g} (Fossen 2021, sec. 6.4), without wave resistance"
+        formula = f"(1 + {FORM:g}) C_F + {ROUGHNESS:g} (Fossen 2021, ch. 6), without wave resistance"
     else:
         slender = math.sqrt(width * depth) / length
         total = friction * (1.0 + 1.5 * slender**1.5 + 7.0 * slender**3)  # Hoerner 1965, ch. 6, eq. 28
@@ -174,7 +176,7 @@ def _strips(form: Form) -> tuple[tuple[Mapping[str, Any], ...], tuple[str, ...]]
         }
         if form.floats:
             table["beam"] = form.lever_area(2, 0, 0) / float(length)  # of all hulls, as the depth is
-            law = "Hoerner's curve at beam over twice the draft (Hoerner 1965; Fossen 2021, sec. 6.7)"
+            law = "Hoerner's curve at beam over twice the draft (Hoerner 1965; Fossen 2021, ch. 6)"
         else:
             law, table["drag_coefficient"] = {
                 "open_frame": ("a cube, face on (Hoerner 1965, ch. 3)", CUBE),
@@ -212,15 +214,13 @@ def linear_damping(
         linear[3:5] = np.maximum(linear[3:5], least[3:5])
         if (critical[3:5] > 0.0).any():
             reasons.append(
-                f"roll, pitch: at least a relative damping of {SUBMERGED_RELATIVE_DAMPING:g} (as MSS, Fossen 2021)"
+                f"roll, pitch: at least a relative damping of {SUBMERGED_RELATIVE_DAMPING:g}, an estimate"
             )
         return tuple(linear.tolist()), tuple(reasons)
     for motion, axis in (("heave", 2), ("roll", 3), ("pitch", 4)):
         if radiated is None or motion == "roll":
             linear[axis] += RELATIVE_DAMPING[motion] * critical[axis]
-            reasons.append(
-                f"{motion}: a relative damping of {RELATIVE_DAMPING[motion]:g} (as MSS, Fossen 2021)"
-            )
+            reasons.append(f"{motion}: a relative damping of {RELATIVE_DAMPING[motion]:g}, an estimate")
         if radiated is not None:
             linear[axis] += max(float(radiated[axis]), 0.0)
             reasons.append(

@@ -64,7 +64,7 @@ class Flotation:
     def stiffness(self, weight: float, center_of_mass: Array, specific_weight: float) -> Array:
         """Return C of heave, roll and pitch about the origin, shape (3, 3) [N/m, N, N m].
 
-        Newman (1977), Marine Hydrodynamics, sec. 6.16, in axes forward-starboard-down.
+        Newman (1977), Marine Hydrodynamics, ch. 6, in axes forward-starboard-down.
 
         Args:
             weight: m g [N].

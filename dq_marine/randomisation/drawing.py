@@ -109,10 +109,12 @@ def varied_damping(draw: DampingDraw, vehicle: Vehicle, rng: np.random.Generator
     blended = [one.model_dump() for one in vehicle.damping.blended]
     # A blend is drawn as a whole: its two parts apart could make resistance that falls as the speed grows.
     if draw.linear is not None or draw.linear_coupling > 0.0:
-        scale = np.sqrt(np.diag(vehicle.mass_matrix))
+        linear = vehicle.linear_damping
+        # What damps an axis that has no linear damping is said elsewhere in the file, and is not added to.
+        scale = np.sqrt(np.diag(vehicle.mass_matrix)) * (linear.any(axis=0) | linear.any(axis=1))
         coupling = drawn_coupling(draw.linear_coupling, 6, rng)
         factors = _factors(draw.linear, 6, rng)
-        changed["linear"] = scaled_and_coupled(vehicle.linear_damping, factors, coupling, scale).tolist()
+        changed["linear"] = scaled_and_coupled(linear, factors, coupling, scale).tolist()
         for one, own in zip(blended, vehicle.damping.blended, strict=True):
             if own.quadratic == 0.0:
                 one["linear"] *= factors[own.index]

@@ -86,7 +86,8 @@ class DampingDraw(Table):
 
     Attributes:
         linear: factors of the six diagonal entries; another entry grows with the root of both factors.
-        linear_coupling: added between the axes; a matrix that was diagonal is then full, which costs time in the step.
+        linear_coupling: added between the axes that have linear damping; a matrix that was diagonal is then full, which
+            costs time in the step.
         quadratic: factors of the six coefficients; a coupling grows with the root of the factors of its force's and its
             velocity's axes, cross-flow drag with the factor of sway or heave, blended damping with that of its axis
             (of `linear` where it has no quadratic part).

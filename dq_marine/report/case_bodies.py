@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 def rigid_body(mass: float, center: Array, inertia: Array) -> Array:
-    """Return M_RB of a mass [kg] at a centre [m] with an inertia about the origin [kg m^2] (Fossen 2021, eq. 3.50)."""
+    """Return M_RB of a mass [kg] at a centre [m] with an inertia about the origin [kg m^2] (Fossen 2021, ch. 3)."""
     s = mass * skew(center)
     return np.block([[mass * np.eye(3), -s], [s, inertia]])
 

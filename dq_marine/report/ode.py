@@ -1,6 +1,6 @@
 """The equations of motion as an ordinary differential equation, written separately from the step.
 
-Fossen's form (Fossen 2021, eqs. 6.1 and 10.38, C from M by eq. 3.60), with a quaternion:
+Fossen's form (Fossen 2021, eqs. 6.111 to 6.116, C from M by Theorem 3.2), with a quaternion:
 
     l' = R nu1 + v_c,   q' = (1/2) q (0, nu2),   M nu' = tau - C(nu) nu - D(nu) nu - g(q),   nu relative to the water
 

@@ -20,7 +20,7 @@ from dq_marine.backend.simd.packing import empty_blocks, pack_blocks, pack_share
 from dq_marine.backend.workers import Workers
 from dq_marine.checks import finite_rows, positive_integer, unit_quaternion_rows
 from dq_marine.errors import InvalidInputError
-from dq_marine.integrator.body import BODY_NUMBERS, BodyState
+from dq_marine.integrator.body import BODY_NUMBERS, BodyState, kinetic_energy, spatial_momentum
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import (
     ACCEPTED,
@@ -236,6 +236,15 @@ class Batch:
         """State of the water's memory, see `OneBody.fluid_memory`, shape (size, m) [J^(1/2)]."""
         rows = unpack_blocks(self._layout.state, self._shared, self._states, self.size)
         return rows[:, BODY_NUMBERS - 1 :]
+
+    def kinetic_energy(self) -> NDArray[np.float64]:
+        """(1/2) nu_r . M nu_r [J], of body and water, relative to the undisturbed water, shape (size,)."""
+        return np.asarray(kinetic_energy(self._parameters.inertia, self._bodies.momentum))
+
+    @property
+    def spatial_momentum(self) -> NDArray[np.float64]:
+        """Momentum [linear, angular] in NED about the world origin, relative to the water, shape (size, 6)."""
+        return np.stack(to_fossen(spatial_momentum(self._bodies)), axis=1)
 
     def get_state(self) -> NDArray[np.float64]:
         """Return time, pose, momentum, fluid memory, channel values and commands, shape (size, 15 + m + 2 n).

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from dq_marine.checks import finite_array, finite_number, positive_integer, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.step import Composition, StepParameters
+from dq_marine.physics.abkowitz.build import whole_ship_terms
 from dq_marine.physics.actuators.build import actuation_term
 from dq_marine.physics.current.build import (
     Current,
@@ -135,7 +136,8 @@ class Scene:
             damping = damping._replace(linear=viscous, mass_matrix=mass_matrix)
         restoring = hydrostatic_terms(self.vehicle, self.hydrostatics)
         of_weather = checked_forces(weather_terms(self.weather, self.vehicle, self.current_ned))
-        present = (*restoring, *manoeuvring_terms(self.vehicle), *of_weather, *self.forces)
+        ships = (*manoeuvring_terms(self.vehicle), *whole_ship_terms(self.vehicle))
+        present = (*restoring, *ships, *of_weather, *self.forces)
         actuators = actuation_term(self.vehicle) if self.actuation == "thrusters" else None
         water = self.current.term(self.vehicle)
         self._assembly = Assembly(

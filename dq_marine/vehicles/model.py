@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from dq_marine.physics.abkowitz.tables import WholeShip
 from dq_marine.physics.actuators.tables import ActuatorSet, Azimuth, ChannelSheet, Fin, Thruster
 from dq_marine.physics.constants import GRAVITY
 from dq_marine.physics.damping.blended_table import BlendedDamping
@@ -136,6 +137,7 @@ class Vehicle(Table):
         azimuths: propellers whose axes turn.
         fins: rudders and planes.
         manoeuvring: the MMG model of a ship: its hull, and its propeller and rudder as one actuator.
+        whole_ship: polynomials about a ship's service speed, its propeller and its rudder in them.
         hydrostatics: of a vessel that floats; None for one that is under water altogether.
         hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
         payloads: weights that act besides.
@@ -160,6 +162,7 @@ class Vehicle(Table):
     azimuths: tuple[Azimuth, ...] = ()
     fins: tuple[Fin, ...] = ()
     manoeuvring: Manoeuvring | None = None
+    whole_ship: WholeShip | None = None
     hydrostatics: Hydrostatics | None = None
     hull: tuple[HullBox, ...] = ()
     payloads: tuple[Payload, ...] = ()
@@ -248,7 +251,7 @@ class Vehicle(Table):
 
     @property
     def rigid_body_matrix(self) -> NDArray[np.float64]:
-        """M_RB about the body origin, shape (6, 6) (Fossen 2021, eq. 3.50)."""
+        """M_RB about the body origin, shape (6, 6) (Fossen 2021, ch. 3)."""
         mass = self.rigid_body.mass
         s = skew(np.array(self.rigid_body.center_of_mass))
         inertia = np.array(self.rigid_body.inertia)
@@ -297,7 +300,12 @@ class Vehicle(Table):
     @property
     def damping_couplings(self) -> NDArray[np.float64]:
         """C of the forces -sum_jk c_ijk |nu_k| nu_j on axes i, shape (6, 6, 6)."""
-        return coupling_tensor(self.damping.couplings)
+        return coupling_tensor(one for one in self.damping.couplings if not one.signed)
+
+    @property
+    def signed_damping_couplings(self) -> NDArray[np.float64]:
+        """C of the forces -sum_jk c_ijk nu_k nu_j on axes i, shape (6, 6, 6)."""
+        return coupling_tensor(one for one in self.damping.couplings if one.signed)
 
     @property
     def restoring_arm(self) -> NDArray[np.float64]:
@@ -315,7 +323,7 @@ class Vehicle(Table):
     def actuators(self) -> ActuatorSet:
         """The actuators whose forces are known: without thrusters that are for drawing only."""
         driven = tuple(thruster for thruster in self.thrusters if thruster.driven)
-        return ActuatorSet(driven, self.azimuths, self.fins, self.manoeuvring)
+        return ActuatorSet(driven, self.azimuths, self.fins, self.manoeuvring, self.whole_ship)
 
     @property
     def channels(self) -> tuple[ChannelSheet, ...]:

@@ -253,7 +253,7 @@ def test_frame_changes_keep_the_bracket(pose, a, b):
 
 @given(seeds)
 def test_the_momentum_bracket_is_fossens_coriolis_wrench(seed):
-    """For any inertia with coupling, ad^T_chi M chi = -C(nu) nu with C by Fossen (2021), eq. 3.60."""
+    """For any inertia with coupling, ad^T_chi M chi = -C(nu) nu with C by Fossen (2021), Theorem 3.2."""
     rng = np.random.default_rng(seed)
     m, nu = random_inertia(rng), rng.normal(size=6)
     rate = frames.momentum_bracket(from_fossen(tuple(nu)), from_fossen(tuple(m @ nu)))

@@ -69,14 +69,16 @@ def other_scene():
     content = load_vehicle("bluerov2_heavy").model_dump()
     content["rigid_body"]["mass"] *= 1.001
     content["buoyancy"]["center"] = (0.001, 0.002, -0.02)
-    content["damping"] = {"linear": [10.0, 1.0, 20.0, 0.1, 0.2, 0.3], "quadratic": [100.0] * 3 + [1.0] * 3}
+    content["damping"] |= {"linear": [10.0, 1.0, 20.0, 0.1, 0.2, 0.3], "quadratic": [100.0] * 3 + [1.0] * 3}
+    for coupling in content["damping"]["couplings"]:
+        coupling["coefficient"] *= 1.001
     return Scene(Vehicle.model_validate(content), current=(0.1, 0.1, 0.1))
 
 
 def test_memory_for_each_body():
-    """Less than 1 kB, however much bodies differ; what they share is kept once."""
-    scene = Scene(current=CURRENT)
-    assert batch_of([scene] * 63 + [other_scene()]).bytes_per_body < 1000
+    """Less than 1 kB and a number for each coupling, however much bodies differ; what they share is kept once."""
+    scene, couplings = Scene(current=CURRENT), load_vehicle("bluerov2_heavy").damping.couplings
+    assert batch_of([scene] * 63 + [other_scene()]).bytes_per_body < 1000 + 8 * len(couplings)
     assert scene.batch(64).bytes_per_body < 200
     assert scene.batch(64, precision="float32").bytes_per_body < 100
 

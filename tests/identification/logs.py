@@ -38,11 +38,15 @@ def changed(vehicle: Vehicle, groups: tuple[str, ...], seed: int, spread: float 
 
 @functools.cache
 def rov_log(
-    seed: int, seconds: float, axes: tuple[int, ...] = tuple(range(6))
+    seed: int,
+    seconds: float,
+    axes: tuple[int, ...] = tuple(range(6)),
+    current: tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> tuple[tuple[float, ...], ...]:
     """Return the rows of a changed BlueROV2 Heavy that is driven in some axes, another wrench every two seconds."""
     rng = np.random.default_rng(seed)
-    body = Scene(changed(load_vehicle("bluerov2_heavy"), GROUPS, seed), step=STEP).stepper()
+    vehicle = changed(load_vehicle("bluerov2_heavy"), GROUPS, seed)
+    body = Scene(vehicle, step=STEP, current=current).stepper()
     wrench, driven = np.zeros(6), np.isin(np.arange(6), axes)
     rows = []
     for k in range(round(seconds / PERIOD) + 1):

@@ -69,7 +69,7 @@ def test_a_table_for_people(folder):
     [
         (("--fit", "mass"), r"fit = 'mass' is unknown"),
         (("--fit", "gains"), r"which gains play no part in"),
-        (("--fit", "couplings"), r"nothing of couplings to fit"),
+        (("--fit", "cross_flow"), r"nothing of cross_flow to fit"),
         (("--bound", "0"), r"bound = 0 is not finite and above 0"),
         (("--segment", "0.1"), r"segment = 0\.1; give at least 1"),
         (("--segment", "1e9"), r"segment = 1e\+09; give at most"),

@@ -70,7 +70,7 @@ def test_actions_are_shares_of_limits(tmp_path, rov, auv):
     assert log.inputs.values[0] == pytest.approx([56.5, 0.0, 0.0, 0.0, 0.0, -30.2])
     columns = [*MOTION, "action_propeller", "action_rudder", "action_stern_planes"]
     log = log_of(tmp_path, auv, columns, [[*row, -0.5, 1.0, 0.25] for row in table(MOTION)])
-    angle = math.radians(15.0)
+    angle = auv.fins[0].limit
     assert log.inputs.values[0] == pytest.approx([-79.85, angle, 0.25 * angle])
 
 

@@ -98,7 +98,7 @@ def test_a_full_added_mass_reaches_any_coupling():
         (["mass"], r"fit = 'mass' is unknown; give some of added_mass"),
         ([], r"fit = '' is unknown"),
         (["added_mass", "added_mass_full"], r"two forms of one matrix"),
-        (["couplings"], r"'BlueROV2 Heavy' has nothing of couplings to fit"),
+        (["cross_flow"], r"'BlueROV2 Heavy' has nothing of cross_flow to fit"),
     ],
 )
 def test_wrong_groups(groups, message):

@@ -103,7 +103,7 @@ def test_reference_point_is_arbitrary():
     rng = np.random.default_rng(5)
     m, offset, velocity = random_inertia(rng, 5.0), np.array([0.2, -0.1, 0.3]), rng.normal(size=6)
     s = np.array([[0.0, -offset[2], offset[1]], [offset[2], 0.0, -offset[0]], [-offset[1], offset[0], 0.0]])
-    # nu at the origin = H nu at the point origin + offset  (Fossen 2021, eq. 3.34 read backwards)
+    # nu at the origin = H nu at the point origin + offset  (H of Fossen 2021, ch. 3, read backwards)
     h = np.block([[np.eye(3), s], [np.zeros((3, 3)), np.eye(3)]])
     gaps = []
     for step in (0.01, 0.005):

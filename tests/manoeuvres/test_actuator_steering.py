@@ -46,19 +46,19 @@ def test_helm_turns_alone(helm):
 
 
 def test_a_rudder_turns_to_the_side_of_the_helm():
-    """REMUS 100: N_uudr u^2 delta with 15 degrees, to starboard for positive helm, the side force to port with it."""
+    """REMUS 100: N_uudr u^2 delta with 13.6 degrees, to starboard for positive helm, the side force to port with it."""
     wrench = wrench_of("remus100", Order(0.0, 1.0))
-    assert wrench[5] == pytest.approx(4.168457 * SPEED**2 * math.radians(15.0), rel=1e-3)
-    assert wrench[1] == pytest.approx(-6.10584 * SPEED**2 * math.radians(15.0), rel=1e-3)
+    assert wrench[5] == pytest.approx(4.168457 * SPEED**2 * math.radians(13.6), rel=1e-3)
+    assert wrench[1] == pytest.approx(-6.10584 * SPEED**2 * math.radians(13.6), rel=1e-3)
     vehicle = load_vehicle("remus100")
     steering = ActuatorSteering(vehicle, SPEED)
     assert steering.full_moment(SPEED) == pytest.approx(wrench[5], rel=1e-3)
-    assert steering.full_angle == pytest.approx(math.radians(15.0))
+    assert steering.full_angle == pytest.approx(math.radians(13.6))
 
 
 @pytest.mark.parametrize("moment", [3.0, -3.0, 100.0])
 def test_planes_give_the_pitch_moment_that_is_asked_for(moment):
-    most = 14.589599 * SPEED**2 * math.radians(15.0)
+    most = 14.589599 * SPEED**2 * math.radians(13.6)
     assert wrench_of("remus100", Order(0.0, 0.0, 0.0, moment))[4] == pytest.approx(
         min(moment, most), rel=1e-3
     )
@@ -99,7 +99,7 @@ def test_the_otter_turns_alike_to_both_sides():
 
 def test_helm_is_as_much_rudder_as_the_angle():
     remus, otter = load_vehicle("remus100"), load_vehicle("otter")
-    assert zig_zag(remus, overshoots=1).settings["helm"] == pytest.approx(10.0 / 15.0)
+    assert zig_zag(remus, overshoots=1).settings["helm"] == pytest.approx(10.0 / 13.6)
     assert zig_zag(otter, overshoots=1).settings["helm"] == pytest.approx(10.0 / 35.0)
 
 

@@ -191,7 +191,12 @@ def test_a_vehicle_under_it_moves_as_the_separately_written_equations_say():
     mass, water = vehicle.rigid_body.mass * MOON, 1000.0 * vehicle.buoyancy.volume * MOON
     arm = mass * np.array(vehicle.rigid_body.center_of_mass) - water * np.array(vehicle.buoyancy.center)
     start = (0.0, 0.0, 5.0), (math.cos(0.6), math.sin(0.6), 0.0, 0.0), (0.3, 0.0, 0.1, 0.0, 0.2, 0.0)
-    damping = {"linear": vehicle.linear_damping, "quadratic": vehicle.quadratic_damping}
+    damping = {
+        "linear": vehicle.linear_damping,
+        "quadratic": vehicle.quadratic_damping,
+        "couplings": vehicle.damping_couplings,
+        "signed": vehicle.signed_damping_couplings,
+    }
     reference = solve(vehicle.mass_matrix, *start, 4.0, excess_weight=mass - water, arm=arm, **damping)
     body = Scene("bluerov2_heavy", gravity=MOON, step=0.005).stepper()
     body.reset(*start)

@@ -90,6 +90,14 @@ def test_any_randomisation_draws_physical_vehicles(vehicle, randomisation, seed)
     assert Randomisation.model_validate(randomisation.model_dump()) == randomisation
 
 
+@pytest.mark.parametrize("vehicle", VEHICLES.values(), ids=VEHICLES)
+def test_an_axis_without_linear_damping_gets_none_by_coupling(vehicle):
+    """Ships have polynomials there: of their damping there must be no more."""
+    damped = vehicle.linear_damping.any(axis=0)
+    drawn = from_tables(damping={"linear_coupling": 0.1}).draw(vehicle, 1).linear_damping
+    assert ((drawn != 0.0) == np.outer(damped, damped)).all()
+
+
 @given(seeds, st.floats(0.0, 0.15))
 def test_a_congruence_keeps_the_signs_of_eigenvalues_and_dissipation(seed, coupling):
     rng = np.random.default_rng(seed)

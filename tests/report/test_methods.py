@@ -13,6 +13,10 @@ from dq_marine.report.end_state import end_of, errors
 from dq_marine.report.methods import METHODS, drag_terms
 from dq_marine.report.physics import Physics
 from dq_marine.report.references import reference
+from dq_marine.simulation.batch import Batch
+
+LANES = 9
+"""More than a block of lanes holds."""
 
 COUNTS = {1: (100, 200, 400), 2: (20, 40, 80), 4: (8, 12, 18), 6: (5, 7, 9), 8: (3, 4, 5)}
 FINER = {("rk4_euler", "kirchhoff_bluerov2"): 8, ("gauss8", "kirchhoff_bluerov2"): 2}
@@ -106,3 +110,17 @@ def test_the_drag_is_the_cheapest_that_has_all_damping(linear, quadratic, expect
     for term in terms:
         force = term.function(term.parameters, None, twist, 0.0)
         assert np.allclose([*force.linear, *force.angular], -linear @ nu - quadratic * np.abs(nu) * nu)
+
+
+@pytest.mark.sweep
+def test_rk4_in_lanes_has_the_bits_of_a_single_body():
+    """So that it can be compared with what a batch does."""
+    method, case = METHODS["rk4_quaternion"], CASES["munk_spheroid"]
+    body = method.body(case.physics, 0.02)
+    batch = Batch(body._composition, [body.parameters], body.step_size, LANES)
+    case.place(body)
+    batch.set_state(np.tile(body.get_state(), (LANES, 1)))
+    body.step(case.wrench, 50)
+    batch.step(case.wrench, 50)
+    assert batch.refusals == {}
+    assert np.array_equal(batch.get_state(), np.tile(body.get_state(), (LANES, 1)))

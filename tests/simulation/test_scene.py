@@ -29,15 +29,26 @@ ZERO6 = (0.0,) * 6
         (
             changed(),
             (0.3, 0.0, 0.0),
-            ("net weight", "righting moment", "diagonal linear and quadratic damping", "current"),
+            (
+                "net weight",
+                "righting moment",
+                "diagonal linear and quadratic damping",
+                "damping couplings",
+                "current",
+            ),
         ),
         (
-            changed(buoyancy__volume=0.0135),
+            changed(buoyancy__volume=0.0135, damping__couplings=()),
             (0, 0, 0),
             ("righting moment", "diagonal linear and quadratic damping"),
         ),
         (
-            changed(buoyancy__volume=0.0135, buoyancy__center=(0.0, 0.0, 0.0), damping__quadratic=ZERO6),
+            changed(
+                buoyancy__volume=0.0135,
+                buoyancy__center=(0.0, 0.0, 0.0),
+                damping__couplings=(),
+                damping__quadratic=ZERO6,
+            ),
             (0, 0, 0),
             ("linear damping",),
         ),
@@ -45,6 +56,7 @@ ZERO6 = (0.0,) * 6
             changed(
                 buoyancy__volume=0.0135,
                 buoyancy__center=(0.0, 0.0, 0.0),
+                damping__couplings=(),
                 damping__quadratic=ZERO6,
                 damping__linear=ZERO6,
             ),

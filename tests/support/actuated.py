@@ -1,7 +1,7 @@
 """Fossen's equations of motion together with those of the actuators, written separately from the product.
 
 One system of ordinary differential equations for SciPy: pose, velocity, and the channels x with dx/dt =
-clip((c - x)/T, -R, R). Still water; damping diagonal or full, linear and quadratic.
+clip((c - x)/T, -R, R). Still water; damping linear, quadratic and by couplings.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ def actuator_wrench(vehicle, values, nu):
         n = next(it)
         r = np.array(thruster.position)
         d = np.array(thruster.direction) / np.linalg.norm(thruster.direction)
-        advance = d @ (nu[:3] + np.cross(nu[3:], r))
+        advance = d @ (nu[:3] + skew(nu[3:]) @ r)
         thrust = thruster.gains[0 if n > 0 else 1] * n * abs(n) - thruster.inflow * abs(n) * advance
-        total += thrust * np.concatenate([d, np.cross(r, d) + thruster.torque_over_thrust * d])
+        total += thrust * np.concatenate([d, skew(r) @ d + thruster.torque_over_thrust * d])
     for azimuth in vehicle.azimuths:
         n, angle = next(it), next(it)
         force = (
             azimuth.gains[0 if n > 0 else 1] * n * abs(n) * np.array([math.cos(angle), math.sin(angle), 0.0])
         )
-        total += np.concatenate([force, np.cross(azimuth.position, force)])
+        total += np.concatenate([force, skew(azimuth.position) @ force])
     for fin in vehicle.fins:
         total += nu[0] * abs(nu[0]) * next(it) * np.array(fin.coefficients)
     return total
@@ -67,9 +67,11 @@ def solve(vehicle, position, quaternion, velocity, values, command, duration):
     def derivative(_, y):
         r, nu, x = y[3:12].reshape(3, 3), y[12:18], y[18:]
         down = r.T @ np.array([0.0, 0.0, 1.0])
-        force = np.concatenate([excess * down, np.cross(vehicle.restoring_arm, down)])
+        force = np.concatenate([excess * down, skew(vehicle.restoring_arm) @ down])
         force = force + actuator_wrench(vehicle, x, nu) - coriolis(m, nu) @ nu
         force = force - vehicle.linear_damping @ nu - vehicle.quadratic_damping * np.abs(nu) * nu
+        force = force - np.einsum("ijk,j,k->i", vehicle.damping_couplings, nu, np.abs(nu))
+        force = force - np.einsum("ijk,j,k->i", vehicle.signed_damping_couplings, nu, nu)
         dx = np.clip((np.asarray(command) - x) / lags, -rates, rates)
         return np.concatenate([r @ nu[:3], (r @ skew(nu[3:])).ravel(), inverse @ force, dx])
 

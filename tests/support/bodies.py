@@ -77,16 +77,20 @@ def random_quaternion(rng):
     return q / np.linalg.norm(q)
 
 
-def make_damping(mass_matrix, linear, quadratic, couplings=None, strips=(), l_stable=True, blends=()):
+def make_damping(
+    mass_matrix, linear, quadratic, couplings=None, strips=(), l_stable=True, blends=(), signed=None
+):
     """A `DampingTerm`; see `make_body`."""
     terms = []
     for plane, (coefficient, first, spacing, number) in strips:
         side = 1.0 if plane == "sway" else -1.0
         row = StripRow(coefficient, side * first, side * spacing)
         terms.append(StripTerm(SWAY_PLANE if plane == "sway" else HEAVE_PLANE, row, number))
-    tensor = np.zeros((6, 6, 6)) if couplings is None else np.asarray(couplings, dtype=float)
+    tensors = [np.zeros((6, 6, 6)) if c is None else np.asarray(c, dtype=float) for c in (couplings, signed)]
     blended = tuple(BlendTerm(axis, Blend(*numbers)) for axis, numbers in blends)
-    return DampingTerm(linear, quadratic, mass_matrix, l_stable, tensor, tuple(terms), blended)
+    return DampingTerm(
+        linear, quadratic, mass_matrix, l_stable, tensors[0], tuple(terms), blended, tensors[1]
+    )
 
 
 def make_body(
@@ -100,6 +104,7 @@ def make_body(
     couplings=None,
     strips=(),
     blends=(),
+    signed=None,
     current=(0.0, 0.0, 0.0),
     scheme="midpoint",
     order=2,
@@ -109,8 +114,8 @@ def make_body(
 ):
     """A `OneBody` with any M, restoring, damping (Fossen's order), current and forces; or a `PlainBody`.
 
-    Couplings are the tensor c_ijk, strips pairs (plane "sway" or "heave", (c, first x, spacing, number)),
-    blends pairs (axis, (linear, quadratic, crossover)).
+    Couplings are the tensor c_ijk, signed that of the signed ones, strips pairs (plane "sway" or "heave", (c, first x,
+    spacing, number)), blends pairs (axis, (linear, quadratic, crossover)).
     """
     mass_matrix = np.asarray(mass_matrix, dtype=float)
     linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)
@@ -118,7 +123,7 @@ def make_body(
     assembly = Assembly(
         mass_matrix,
         (*restoring_terms(excess_weight, np.asarray(arm, dtype=float)), *forces),
-        make_damping(mass_matrix, linear, quadratic, couplings, strips, l_stable, blends),
+        make_damping(mass_matrix, linear, quadratic, couplings, strips, l_stable, blends, signed),
         current if isinstance(current, WaterTerm) else uniform_water(np.asarray(current, dtype=float)),
         scheme,
         order,

@@ -1,7 +1,7 @@
 """Fossen's equations of motion, written separately from the product and solved by SciPy.
 
-M nu_r' + C(nu_r) nu_r + D(nu_r) nu_r + g = tau with the Earth-fixed kinematics (Fossen 2021, eqs. 6.1, 10.38),
-C from M by Fossen's parametrisation (eq. 3.60). Rotation matrices instead of quaternions, so that nothing is
+M nu_r' + C(nu_r) nu_r + D(nu_r) nu_r + g = tau with the Earth-fixed kinematics (Fossen 2021, eqs. 6.111-6.116),
+C from M by Fossen's parametrisation (Theorem 3.2). Rotation matrices instead of quaternions, so that nothing is
 shared with the product but the physics.
 """
 
@@ -28,11 +28,11 @@ def strip_drag(plane, coefficient, first, spacing, number, nu):
     """Cross-flow drag of strips at x, of their own velocity across the hull: that of the water at r x (x, 0, 0)."""
     drag = np.zeros(6)
     for x in first + spacing * np.arange(number):
-        velocity = nu[:3] + np.cross(nu[3:], (x, 0.0, 0.0))
+        velocity = nu[:3] + skew(nu[3:]) @ (x, 0.0, 0.0)
         axis = 1 if plane == "sway" else 2
         force = np.zeros(3)
         force[axis] = coefficient * abs(velocity[axis]) * velocity[axis]
-        drag += np.concatenate([force, np.cross((x, 0.0, 0.0), force)])
+        drag += np.concatenate([force, skew((x, 0.0, 0.0)) @ force])
     return drag
 
 
@@ -58,6 +58,7 @@ def solve(
     couplings=None,
     strips=(),
     blends=(),
+    signed=None,
     current=(0.0, 0.0, 0.0),
     wrench=(0.0,) * 6,
     rtol=1e-12,
@@ -68,7 +69,9 @@ def solve(
     inverse = np.linalg.inv(m)
     linear = np.zeros((6, 6)) if linear is None else np.asarray(linear, dtype=float)
     quadratic = np.zeros(6) if quadratic is None else np.asarray(quadratic, dtype=float)
-    couplings = np.zeros((6, 6, 6)) if couplings is None else np.asarray(couplings, dtype=float)
+    couplings, signed = (
+        np.zeros((6, 6, 6)) if c is None else np.asarray(c, dtype=float) for c in (couplings, signed)
+    )
     arm, current, wrench = (np.asarray(a, dtype=float) for a in (arm, current, wrench))
     start = Rotation.from_quat(np.roll(quaternion, -1)).as_matrix()
 
@@ -78,16 +81,17 @@ def solve(
         water = np.concatenate([r.T @ current, np.zeros(3)])
         relative = nu - water
         down = r.T @ np.array([0.0, 0.0, 1.0])
-        restoring = np.concatenate([excess_weight * down, np.cross(arm, down)])
+        restoring = np.concatenate([excess_weight * down, skew(arm) @ down])
         force = wrench + restoring - coriolis(m, relative) @ relative
         force = force - linear @ relative - quadratic * np.abs(relative) * relative
         force = force - np.einsum("ijk,j,k->i", couplings, relative, np.abs(relative))
+        force = force - np.einsum("ijk,j,k->i", signed, relative, relative)
         for plane, row in strips:
             force = force - strip_drag(plane, *row, relative)
         for axis, numbers in blends:
             force = force - blended_drag(axis, *numbers, relative)
         # The water's velocity is constant in NED, hence turns in the body frame.
-        turning = np.concatenate([-np.cross(nu[3:], water[:3]), np.zeros(3)])
+        turning = np.concatenate([-skew(nu[3:]) @ water[:3], np.zeros(3)])
         return np.concatenate([r @ nu[:3], (r @ skew(nu[3:])).ravel(), inverse @ force + turning])
 
     y0 = np.concatenate([position, start.ravel(), velocity])

@@ -48,8 +48,8 @@ def solve_in_moving_water(
         force = (
             np.asarray(wrench) - coriolis(m, relative) @ relative - quadratic * np.abs(relative) * relative
         )
-        force = force + np.concatenate([excess * a, np.cross(moment, a)])
-        along = np.concatenate([a - np.cross(nu[3:], u), np.zeros(3)])
+        force = force + np.concatenate([excess * a, skew(moment) @ a])
+        along = np.concatenate([a - skew(nu[3:]) @ u, np.zeros(3)])
         return np.concatenate([r @ nu[:3], (r @ skew(nu[3:])).ravel(), inverse @ force + along])
 
     def crossing(depth):

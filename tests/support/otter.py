@@ -108,8 +108,8 @@ def coriolis(m, velocity):
     momentum = m @ velocity
     return np.concatenate(
         [
-            np.cross(velocity[3:], momentum[:3]),
-            np.cross(velocity[:3], momentum[:3]) + np.cross(velocity[3:], momentum[3:]),
+            cross(velocity[3:]) @ momentum[:3],
+            cross(velocity[:3]) @ momentum[:3] + cross(velocity[3:]) @ momentum[3:],
         ]
     )
 
@@ -147,11 +147,11 @@ def otter_run(commands, times, current_ned=(0.0, 0.0, 0.0)):
         left, right = thrust(speeds)
         weight = r.T @ np.array([0.0, 0.0, PAYLOAD_MASS * GRAVITY])
         force = np.array([left + right, 0.0, 0.0, 0.0, 0.0, PONTOON_ARM * (left - right)])
-        force += np.concatenate([weight, np.cross(PAYLOAD, weight)]) + cross_flow(relative)
+        force += np.concatenate([weight, cross(PAYLOAD) @ weight]) + cross_flow(relative)
         force -= damping * relative + g @ np.concatenate([position, angles])
         force[5] -= 10.0 * damping[5] * np.abs(relative[5]) * relative[5]
         acceleration = inverse @ (force - coriolis(mass_matrix, relative))
-        acceleration[:3] -= np.cross(velocity[3:], r.T @ flow)
+        acceleration[:3] -= cross(velocity[3:]) @ (r.T @ flow)
         lag = (np.asarray(commands(t)) - speeds) / PROPELLER_TIME
         return np.concatenate([r @ velocity[:3], euler_rates(*angles[:2], velocity[3:]), acceleration, lag])
 

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dq_marine.simulation.batch import Batch
 from support.bodies import make_body, random_damping, random_inertia, random_quaternion
 
 
@@ -47,3 +48,18 @@ def body_of(drawn, **keywords):
     body = make_body(drawn.mass_matrix, keywords.pop("step", drawn.step), linear=drawn.linear, **keywords)
     body.reset(drawn.position, drawn.quaternion, drawn.velocity)
     return body
+
+
+def batch_of_wild(seeds, step, damped=False):
+    """A body for each seed, in lanes and on its way, all with one step."""
+    drawn = [wild(np.random.default_rng(seed), damped) for seed in seeds]
+    made = [make_body(one.mass_matrix, step, linear=one.linear, kind=_composed) for one in drawn]
+    batch = Batch(made[0][0], [parameters for _, parameters in made], step, len(made))
+    batch.reset(
+        *(np.array([getattr(one, name) for one in drawn]) for name in ("position", "quaternion", "velocity"))
+    )
+    return batch
+
+
+def _composed(composition, parameters_at, step):
+    return composition, parameters_at(step)

@@ -20,7 +20,7 @@ from dq_marine.viewer.snapshot import at_rest
 
 ID = "dq_marine/StationKeeping-v0"
 DRIVEN = [name for name in vehicle_names() if load_vehicle(name).channels]
-FLOATING = ["kvlcc2", "kvlcc2_l7", "osv83", "otter", "supply_vessel", "tanker"]
+FLOATING = ["kvlcc2", "kvlcc2_l7", "mariner", "osv83", "otter", "supply_vessel", "tanker"]
 
 
 def test_the_catalogue():

@@ -180,3 +180,17 @@ def test_a_sheet_needs_a_speed(speed):
         vehicle_sheet(load_vehicle("rexrov"), speed=speed)
     with pytest.raises(InvalidInputError, match="speed"):
         munk_growth_rate(spheroid(1.0, 1.0), speed)
+
+
+def test_terminal_speeds_of_a_ship_by_polynomials_are_balances_of_its_force():
+    """About the vertical axis alone, where u' is held at -0.6; in surge: test_whole_ship_steering.py."""
+    vehicle = load_vehicle("mariner")
+    sheet, length = vehicle_sheet(vehicle), 160.93
+    assert sheet.service_speed == 7.7175
+    speed, u = 7.7175 / 0.6, -0.6
+    r = sheet.terminal_speed["yaw"] * length / speed
+    moment = -166e-5 * (1.0 + u) * r + 3e-5 * (1.0 + u) ** 2
+    assert -0.5 * 1025.0 * length**3 * speed**2 * moment == pytest.approx(vehicle.wrench_limits[5], rel=1e-9)
+    assert sheet.terminal_speed["sway"] == 0.0
+    assert json.loads(json.dumps(sheet.as_dict()))["service_speed"] == 7.7175
+    assert vehicle_sheet(load_vehicle("otter")).as_dict()["service_speed"] is None

@@ -1,6 +1,7 @@
 """What a vehicle's numbers hold for: what a file may say, and what is said of runs that leave it."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,8 +11,9 @@ from hypothesis import strategies as st
 from dq_marine import BeyondValidityWarning, Jonswap, Sea
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres import acceleration
+from dq_marine.manoeuvres.run_notes import run_notes
 from dq_marine.physics.weather.choice import weather_of
-from dq_marine.vehicles import load_vehicle, vehicle_sheet
+from dq_marine.vehicles import load_vehicle, vehicle_names, vehicle_sheet
 from dq_marine.vehicles.validation import validated
 from dq_marine.vehicles.validity import Validity
 
@@ -59,9 +61,26 @@ def test_a_validity_that_says_nothing_or_nonsense_is_refused(limits, message):
 
 
 def test_the_sheet_shows_it():
-    assert vehicle_sheet(load_vehicle("rexrov")).validity == ()
+    unknown = validated(load_vehicle("rexrov").model_dump() | {"validity": None}, "rexrov")
+    assert vehicle_sheet(unknown).validity == ()
     shown = vehicle_sheet(with_validity(**LIMITS)).validity
     assert shown == ("through the water up to 2 m/s", "drift up to 30 deg")
+
+
+@pytest.mark.parametrize("name", vehicle_names())
+def test_each_vehicle_of_the_catalogue_says_what_its_numbers_hold_for(name):
+    """And says so once of a run that leaves it: the run itself is the series of its velocities here."""
+    vehicle = load_vehicle(name)
+    limit = vehicle.validity.speed
+    assert f"through the water up to {limit:g} m/s" in vehicle_sheet(vehicle).validity
+    for speed, times in ((0.99 * limit, 0), (1.01 * limit, 1)):
+        steps = np.zeros((5, 6))
+        steps[1:, 0] = speed
+        level = np.zeros((5, 3))
+        said = run_notes(vehicle, SimpleNamespace(velocity_body=steps, euler=level))
+        notes = [note for note in said if vehicle.validity.source in note]
+        assert len(notes) == times
+        assert all(f"up to {limit:g} m/s ({vehicle.validity.source})" in note for note in notes)
 
 
 def test_waves_above_the_limit_are_warned_of():

@@ -47,7 +47,7 @@ def test_a_users_file_is_taken(tmp_path):
 
 
 def test_an_offset_centre_of_mass_couples_surge_and_pitch(tmp_path):
-    """M_RB about CO has -m S(r_G) (Fossen 2021, eq. 3.50): z_G > 0 couples X with q as +m z_G."""
+    """M_RB about CO has -m S(r_G) (Fossen 2021, ch. 3): z_G > 0 couples X with q as +m z_G."""
     vehicle = load_vehicle(
         edited(tmp_path, "center_of_mass = [0.0, 0.0, 0.0]", "center_of_mass = [0.0, 0.0, 0.02]")
     )

@@ -85,10 +85,10 @@ class ThrustAllocator:
                 f"vehicle {vehicle.name!r} has no actuators whose force is known; add thrust_forward and "
                 "thrust_reverse to its [[thrusters]], or [[azimuths]] or [[fins]]"
             )
-        if actuators.manoeuvring is not None:
+        if actuators.manoeuvring is not None or actuators.whole_ship is not None:
             raise InvalidInputError(
-                f"vehicle {vehicle.name!r} has the propeller and rudder of an MMG model, whose forces depend on each "
-                "other and cannot be allocated; command its channels"
+                f"vehicle {vehicle.name!r} has the propeller and rudder of a ship's model, whose forces depend on its "
+                "motion and cannot be allocated; command its channels"
             )
         length = vehicle.dimensions.length if arm is None else finite_number("arm", arm, above=0.0)
         self._effort = finite_number("effort", effort, above=0.0)

@@ -11,6 +11,8 @@ from dq_marine.algebra.nesting import nested
 from dq_marine.algebra.spatial import Spatial, from_fossen
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.actuation import Actuation
+from dq_marine.physics.abkowitz.build import rudder_term
+from dq_marine.physics.abkowitz.tables import WholeShip
 from dq_marine.physics.actuators.formulas.channels import (
     Channel,
     ChannelKind,
@@ -95,6 +97,8 @@ def actuation_term(vehicle: Vehicle) -> ActuationTerm:
     ]
     if actuators.manoeuvring is not None:
         parts.append(_stern(actuators.manoeuvring, vehicle.buoyancy.water_density))
+    if actuators.whole_ship is not None:
+        parts.append(_whole_ship_rudder(actuators.whole_ship, vehicle.buoyancy.water_density))
     if not parts:
         raise InvalidInputError(
             f"vehicle {vehicle.name!r} has no actuators whose force is known; add thrust_forward and thrust_reverse "
@@ -156,6 +160,15 @@ def _stern(tables: Manoeuvring, density: float) -> ActuatorPart:
     return ActuatorPart(
         ActuatorKind(effect, (shaft.kind, angle.kind)), term.numbers, (shaft.numbers, angle.numbers)
     )
+
+
+def _whole_ship_rudder(tables: WholeShip, density: float) -> ActuatorPart:
+    """Return the rudder that is in the polynomials of a ship."""
+    term, rudder = rudder_term(tables, density), tables.rudder
+    rate = rudder.rate_limit_deg_s
+    angle = _channel(rudder.limit, rudder.time_constant, None if rate is None else math.radians(rate))
+    effect = EffectKind(term.wrench, channels=1, uses_velocity=True)
+    return ActuatorPart(ActuatorKind(effect, (angle.kind,)), term.numbers, (angle.numbers,))
 
 
 def _shaft(propulsion: Propulsion) -> ChannelPart:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from dq_marine.physics.abkowitz.tables import WholeShip
 from dq_marine.physics.fields import NonNegative, Positive, Table, Vector3, Vector6
 from dq_marine.physics.manoeuvring.tables import Manoeuvring
 
@@ -212,13 +213,15 @@ class Fin(Table):
 class ActuatorSet(NamedTuple):
     """A vehicle's actuators whose forces are known, in the order of their channels.
 
-    The last are the propeller and rudder of an MMG model, which make one actuator: the rudder lies in the race.
+    The last are the propeller and rudder of an MMG model, which make one actuator, as the rudder lies in the race; or
+    the rudder that is in the polynomials of a whole ship.
     """
 
     thrusters: tuple[Thruster, ...]
     azimuths: tuple[Azimuth, ...]
     fins: tuple[Fin, ...]
     manoeuvring: Manoeuvring | None = None
+    whole_ship: WholeShip | None = None
 
     @property
     def thrust_matrix(self) -> NDArray[np.float64]:
@@ -254,4 +257,7 @@ class ActuatorSet(NamedTuple):
             rudder = self.manoeuvring.rudder
             sheets.append(ChannelSheet("propeller", "rad/s", 0.0, self.manoeuvring.propeller.speed_limit))
             sheets.append(ChannelSheet("rudder", "rad", -rudder.limit, rudder.limit))
+        if self.whole_ship is not None:
+            limit = self.whole_ship.rudder.limit
+            sheets.append(ChannelSheet("rudder", "rad", -limit, limit))
         return tuple(sheets)

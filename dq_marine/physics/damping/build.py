@@ -78,6 +78,7 @@ class DampingTerm(NamedTuple):
         couplings: c_ijk of the forces -c_ijk |nu_k| nu_j, shape (6, 6, 6).
         strips: cross-flow drag.
         blends: damping that passes from linear to quadratic under way.
+        signed_couplings: c_ijk of the forces -c_ijk nu_k nu_j, shape (6, 6, 6).
     """
 
     linear: Array
@@ -87,13 +88,14 @@ class DampingTerm(NamedTuple):
     couplings: Array = NO_COUPLINGS
     strips: tuple[StripTerm, ...] = ()
     blends: tuple[BlendTerm, ...] = ()
+    signed_couplings: Array = NO_COUPLINGS
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of what the kick computes; empty without damping."""
         names = [
             self._own_name,
-            "damping couplings" if self.couplings.any() else "",
+            "damping couplings" if self._has_couplings else "",
             "cross-flow drag" if self.strips else "",
             "blended damping" if self.blends else "",
         ]
@@ -137,12 +139,18 @@ class DampingTerm(NamedTuple):
         if not self.names or (self.l_stable and not self._grows):
             return ()
         coefficients = spatial(self.quadratic)
-        if self._is_diagonal and not self._is_coupled:
-            return DiagonalDamping(spatial(np.diag(self.linear).copy()), coefficients)
-        own = FullDamping(matrix6(angular_first(self.linear)), coefficients)
+        own: DiagonalDamping | FullDamping
+        if self._is_diagonal:
+            own = DiagonalDamping(spatial(np.diag(self.linear).copy()), coefficients)
+        else:
+            own = FullDamping(matrix6(angular_first(self.linear)), coefficients)
         if not self._is_coupled:
             return own
-        present = [float(self.couplings[indices]) for indices in self._coupling_indices]
+        present = [
+            float(tensor[indices])
+            for tensor in (self.couplings, self.signed_couplings)
+            for indices in _entries(tensor)
+        ]
         return CoupledDamping(
             own,
             nested(present),
@@ -165,7 +173,11 @@ class DampingTerm(NamedTuple):
 
     @property
     def _is_coupled(self) -> bool:
-        return bool(self.couplings.any()) or bool(self.strips) or bool(self.blends)
+        return self._has_couplings or bool(self.strips) or bool(self.blends)
+
+    @property
+    def _has_couplings(self) -> bool:
+        return bool(self.couplings.any()) or bool(self.signed_couplings.any())
 
     @property
     def _is_diagonal(self) -> bool:
@@ -180,16 +192,13 @@ class DampingTerm(NamedTuple):
     @property
     def _structure(self) -> DampingStructure:
         couplings = (
-            Coupling(*(ANGULAR_FIRST[index] for index in indices)) for indices in self._coupling_indices
+            Coupling(ANGULAR_FIRST[i], ANGULAR_FIRST[j], ANGULAR_FIRST[k], signed)
+            for tensor, signed in ((self.couplings, False), (self.signed_couplings, True))
+            for i, j, k in _entries(tensor)
         )
         shapes = (StripShape(strips.plane, strips.number) for strips in self.strips)
         axes = (ANGULAR_FIRST[term.axis] for term in self.blends)
-        return DampingStructure(tuple(couplings), tuple(shapes), tuple(axes))
-
-    @property
-    def _coupling_indices(self) -> list[tuple[int, int, int]]:
-        """Force, velocity and speed of the couplings that are there."""
-        return [(i, j, k) for i, j, k in np.argwhere(self.couplings).tolist()]
+        return DampingStructure(tuple(couplings), tuple(shapes), tuple(axes), self._is_diagonal)
 
     def _kick_parameters(self, duration: float) -> UndampedKick | LinearKick | QuadraticKick:
         if self._grows:
@@ -213,6 +222,11 @@ class DampingTerm(NamedTuple):
             forcing = forcing + propagator @ forcing
             propagator = propagator @ propagator
         return LinearKick(matrix6(propagator), matrix6(forcing))
+
+
+def _entries(couplings: Array) -> list[tuple[int, int, int]]:
+    """Return force, velocity and speed of the couplings that are there."""
+    return [(i, j, k) for i, j, k in np.argwhere(couplings).tolist()]
 
 
 LARGEST_PADE_ARGUMENT = 0.05
@@ -251,4 +265,5 @@ def vehicle_damping(vehicle: Vehicle, *, l_stable: bool = True) -> DampingTerm:
         vehicle.damping_couplings,
         tuple(strips),
         tuple(BlendTerm(blended.index, blended.blend) for blended in vehicle.damping.blended),
+        vehicle.signed_damping_couplings,
     )

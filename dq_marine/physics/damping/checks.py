@@ -39,13 +39,20 @@ def _check_dissipative(vehicle: Vehicle) -> None:
 
 
 def _check_couplings(vehicle: Vehicle) -> None:
-    seen: set[tuple[int, int, int]] = set()
+    seen: set[tuple[tuple[int, int, int], bool]] = set()
     for number, coupling in enumerate(vehicle.damping.couplings):
         field, indices = f"damping.couplings.{number}", coupling.indices
-        named = f"{coupling.force} by |{coupling.speed}| {coupling.velocity}"
-        if indices in seen:
+        named = coupling.name
+        if (indices, coupling.signed) in seen:
             raise Implausible(field, named, "it is given twice", "write one entry with the sum")
-        seen.add(indices)
+        seen.add((indices, coupling.signed))
+        if coupling.signed and coupling.force == coupling.velocity:
+            raise Implausible(
+                f"{field}.signed",
+                named,
+                f"a force in {coupling.force} along its own velocity that turns over feeds energy in",
+                "leave signed out",
+            )
         if len(set(indices)) == 1:
             axis = indices[0]
             raise Implausible(

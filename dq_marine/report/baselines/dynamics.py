@@ -23,12 +23,12 @@ from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import (
-    ACCEPTED,
     Composition,
     Progress,
     StepOutcome,
     StepParameters,
     arrival,
+    set_out,
 )
 
 
@@ -113,7 +113,15 @@ def make_landing(composition: Composition) -> Land:
     ) -> StepOutcome:
         pose = pose_from_parts(point.attitude, point.position)
         arrived = carry(parameters.water, start, steps * parameters.timing.h, pose)
-        progress = Progress(True, ACCEPTED, steps, iterations, 0, 0.0)
+        begun = set_out(state)
+        progress = Progress(
+            begun.under_way,
+            begun.status,
+            begun.completed + steps,
+            iterations,
+            begun.fallbacks,
+            begun.residual_squared,
+        )
         return arrival(state, arrived, point.momentum, state.fluid_memory, progress)
 
     return land

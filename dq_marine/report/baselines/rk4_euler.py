@@ -1,6 +1,6 @@
 """The classical Runge-Kutta method of order 4 on position, Euler angles and momentum: the textbook's form.
 
-With roll phi, pitch theta and heading psi (zyx; Fossen 2021, sec. 2.2)
+With roll phi, pitch theta and heading psi (zyx; Fossen 2021, ch. 2)
 
     phi' = p + tan(theta) (q sin(phi) + r cos(phi)),  theta' = q cos(phi) - r sin(phi),
     psi' = (q sin(phi) + r cos(phi))/cos(theta),      l' = R v,     mu' by (Ri1)

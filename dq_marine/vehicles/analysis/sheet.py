@@ -11,6 +11,7 @@ import numpy as np
 
 from dq_marine.checks import finite_number
 from dq_marine.errors import InvalidInputError
+from dq_marine.physics.abkowitz.build import own_axis_force
 from dq_marine.physics.hydrostatics.restoring import heave_period, natural_periods, restoring_frequencies
 from dq_marine.physics.manoeuvring.build import own_axis_drag
 from dq_marine.physics.radiation.build import radiation_model
@@ -45,13 +46,15 @@ class Sheet:
         roll_period: undamped natural period [s]; infinite without a righting moment.
         pitch_period: likewise [s].
         terminal_speed: by motion, at the wrench's limit in that axis alone, against damping alone [m/s, rad/s]; 0 where
-            the vehicle is not actuated, infinite where it is not damped.
+            the vehicle is not actuated, infinite where it is not damped. In surge of a ship by polynomials, the limit
+            acts besides the propeller in them.
         speed: U through the water along x, for what follows [m/s].
         munk_growth_rate: of deviations from straight motion at U [1/s], see `munk_growth_rate`.
         restoring_step: step [s] at which the explicit restoring forces become unstable, h omega = 2; larger steps are
             refused. Infinite without.
         translation_step: step [s] up to which translation at U is solved directly, h sigma = 2; larger steps are split.
             Infinite where nothing grows.
+        service_speed: that the propeller in a ship's polynomials holds [m/s]; None for vehicles without.
         validity: limits of the motions and seas that the file's numbers hold for, each for reading; empty if unknown.
         radiation_memory: how well a model of the waves that the hull makes reproduces its table by frequency, for
             reading, or why there is none; empty without a table.
@@ -76,6 +79,7 @@ class Sheet:
     munk_growth_rate: float
     restoring_step: float
     translation_step: float
+    service_speed: float | None = None
     validity: tuple[str, ...] = ()
     radiation_memory: tuple[str, ...] = ()
 
@@ -126,6 +130,7 @@ def vehicle_sheet(vehicle: Vehicle, *, speed: float = 1.0) -> Sheet:
         munk_growth_rate=growth,
         restoring_step=2.0 / fastest if fastest > 0.0 else math.inf,
         translation_step=2.0 / growth if growth > 0.0 else math.inf,
+        service_speed=None if vehicle.whole_ship is None else vehicle.whole_ship.service_speed,
         validity=() if vehicle.validity is None else vehicle.validity.limits(),
         radiation_memory=() if vehicle.radiation is None else _radiation_memory(vehicle),
     )
@@ -141,7 +146,7 @@ def _radiation_memory(vehicle: Vehicle) -> tuple[str, ...]:
 def terminal_speed(vehicle: Vehicle, axis: int) -> float:
     """Return the speed at which drag is the limit F, for one axis with the others held [m/s, rad/s].
 
-    In closed form, d v + q v^2 = F; by bisection where damping is blended.
+    In closed form, d v + q v^2 = F; by bisection where damping is blended, or polynomials have it.
     """
     limit = float(vehicle.wrench_limits[axis])
     linear = float(vehicle.linear_damping[axis, axis])
@@ -152,14 +157,18 @@ def terminal_speed(vehicle: Vehicle, axis: int) -> float:
     if limit == 0.0:
         return 0.0
     blends = [blended for blended in vehicle.damping.blended if blended.index == axis]
+    of_polynomials = own_axis_force(vehicle, axis)
 
     def drag_at(speed: float) -> float:
-        return linear * speed + quadratic * speed**2 + sum(blended.alone(speed) for blended in blends)
+        own = linear * speed + quadratic * speed**2 - of_polynomials(speed)
+        return own + sum(blended.alone(speed) for blended in blends)
 
     # The root in the form that stands without a quadratic part.
     denominator = linear + math.sqrt(linear * linear + 4.0 * quadratic * limit)
-    without_blends = 2.0 * limit / denominator if denominator > 0.0 else math.inf
-    return _first_speed_with(drag_at, limit, without_blends) if blends else without_blends
+    in_closed_form = 2.0 * limit / denominator if denominator > 0.0 else math.inf
+    if blends or vehicle.whole_ship is not None:
+        return _first_speed_with(drag_at, limit, in_closed_form)
+    return in_closed_form
 
 
 def _first_speed_with(drag_at: Callable[[float], float], force: float, most: float) -> float:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.physics.abkowitz.checks import check_whole_ship
 from dq_marine.physics.damping.checks import check_damping
 from dq_marine.physics.hydrostatics.checks import check_floating
 from dq_marine.physics.implausible import Implausible as Implausible
@@ -49,6 +50,7 @@ def check_vehicle(vehicle: Vehicle) -> None:
     _check_limits(vehicle)
     _check_thrusters(vehicle)
     check_floating(vehicle)
+    check_whole_ship(vehicle)
     check_manoeuvring(vehicle)
     _check_actuator_size(vehicle)
 

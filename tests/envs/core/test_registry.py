@@ -31,6 +31,10 @@ SUITED = [
 ]
 PLAIN = [(STATION_KEEPING, "bluerov2_heavy"), (WAYPOINT_TRACKING, "bluerov2_heavy")]
 each_suited = pytest.mark.parametrize(("task", "vehicle"), sweep(SUITED, plain=PLAIN))
+FIRST = {vehicle: (task, vehicle) for task, vehicle in reversed(SUITED)}.values()
+each_vehicle = pytest.mark.parametrize(
+    ("task", "vehicle"), sweep([case for case in SUITED if case in FIRST or case in PLAIN], plain=PLAIN)
+)
 
 STEPS, MANY = 1000, 3
 
@@ -80,7 +84,7 @@ def test_the_reward_is_the_sum_of_its_terms(task, vehicle):
         assert reward == pytest.approx(sum(float(info[term]) for term in terms), rel=1e-12, abs=1e-12)
 
 
-@each_suited
+@each_vehicle
 def test_environments_in_lanes_have_the_bits_of_single_ones(task, vehicle):
     envs = gym.make_vec(task, num_envs=MANY, vehicle=vehicle)
     singles = [gym.make(task, vehicle=vehicle) for _ in range(MANY)]

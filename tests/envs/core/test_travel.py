@@ -10,6 +10,7 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import data_equivalence
+from support import fleet
 from support.environments import STATION_KEEPING, WAYPOINT_TRACKING
 from support.sweeps import sweep
 from support.travellers import actions_of, begun, driven_by_wrenches, everything, flown
@@ -17,7 +18,11 @@ from support.travellers import actions_of, begun, driven_by_wrenches, everything
 from dq_marine.simulation.scene import Scene
 
 LENGTH = 6
-KEYWORDS = {"wrenches": driven_by_wrenches(), "everything": everything()}
+KEYWORDS = {
+    "wrenches": driven_by_wrenches(),
+    "actuators": {"actuation": "thrusters", "vehicle": fleet.everything(), "current": 0.0},
+    "everything": everything(),
+}
 
 
 def carried(env):
@@ -31,8 +36,9 @@ def maker(task, keywords, count):
 
 # What takes longest to compile goes with one task, and is compiled for other tests, too.
 CASES = [
-    *((STATION_KEEPING, keywords, count) for keywords in KEYWORDS for count in (0, 3)),
-    *((WAYPOINT_TRACKING, "wrenches", count) for count in (0, 3)),
+    *((task, "wrenches", count) for task in (STATION_KEEPING, WAYPOINT_TRACKING) for count in (0, 3)),
+    (STATION_KEEPING, "actuators", 3),
+    (STATION_KEEPING, "everything", 0),
 ]
 
 
@@ -64,7 +70,9 @@ def test_a_scene_with_weather_and_forces_travels():
 
 @pytest.mark.parametrize(
     ("context", "keywords"),
-    sweep([(c, k) for c in ("fork", "spawn") for k in KEYWORDS], plain=[("spawn", "wrenches")]),
+    sweep(
+        [(c, k) for c in ("fork", "spawn") for k in ("wrenches", "everything")], plain=[("spawn", "wrenches")]
+    ),
 )
 def test_workers_of_gymnasium_give_the_same_bits(context, keywords):
     make = maker(STATION_KEEPING, keywords, 0)

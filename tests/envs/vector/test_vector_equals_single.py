@@ -61,12 +61,10 @@ KEYWORDS = {
     "thrusters": {"actuation": "thrusters"},
     "actuators of every kind": {"actuation": "thrusters", "vehicle": everything(), "current": 0.0},
     "profile": {"current": PROFILE},
-    "profile, gauss": {"current": PROFILE, "scheme": "gauss", "order": 8, "substeps": 1},
-    "profile, galerkin": {"current": PROFILE, "scheme": "galerkin", "order": 4, "substeps": 1},
     "Gauss-Markov": {"current": GAUSS_MARKOV},
     "Gauss-Markov, gauss": {"current": GAUSS_MARKOV, "scheme": "gauss", "order": 8, "substeps": 1},
-    "all but actuators and wind": driven_by_wrenches() | {"max_episode_steps": 20},
     "Gauss-Markov, galerkin": {"current": GAUSS_MARKOV, "scheme": "galerkin", "order": 4, "substeps": 1},
+    "all but actuators and wind": driven_by_wrenches() | {"max_episode_steps": 20},
 }  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from support.fleet import everything, twin_screw, vehicle_with
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.actuators.allocation import ThrustAllocator
-from dq_marine.vehicles import load_vehicle
+from dq_marine.vehicles import Vehicle, load_vehicle
 
 HEAVY = load_vehicle("bluerov2_heavy")
 
@@ -140,8 +140,12 @@ def test_fins_live_on_speed():
 
 
 def test_axes_that_are_not_actuated_are_left_free():
-    """Six thrusters above the origin pitch the BlueROV2 when they push; surge is not given up for that."""
-    allocation = ThrustAllocator(load_vehicle("bluerov2")).allocate((80.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    """Thrusters below the origin pitch a BlueROV2 when they push; surge is not given up for that."""
+    content = load_vehicle("bluerov2").model_dump()
+    for thruster in content["thrusters"][:4]:
+        thruster["position"] = (*thruster["position"][:2], 0.0725)
+    low = Vehicle.model_validate(content)
+    allocation = ThrustAllocator(low).allocate((80.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     assert allocation.unreachable[[0, 1, 2, 3, 5]] == pytest.approx(np.zeros(5), abs=1e-6)
     assert allocation.wrench_body[4] == pytest.approx(80.0 * 0.0725, rel=1e-6)
 

@@ -38,6 +38,7 @@ CASES = {
     "couplings and strips": {"couplings": lift(), "strips": STRIPS, "quadratic": QUADRATIC},
     "implicit node": {"couplings": lift(), "strips": STRIPS, "quadratic": QUADRATIC, "l_stable": False},
     "order 4": {"couplings": lift(), "strips": STRIPS, "quadratic": QUADRATIC, "order": 4},
+    "signed couplings": {"couplings": lift(), "signed": lift(), "quadratic": QUADRATIC},
     "blends": {"couplings": lift(), "blends": BLENDS, "quadratic": QUADRATIC},
     "blends, implicit node": {"blends": BLENDS, "quadratic": QUADRATIC, "l_stable": False},
     "blends, order 4": {"blends": BLENDS, "quadratic": QUADRATIC, "order": 4},

@@ -8,10 +8,12 @@ from scipy.integrate import quad
 from support.bodies import make_damping, random_damping, random_inertia
 from support.fossen import blended_drag, strip_drag
 
-from dq_marine.algebra.spatial import matrix6_add_scaled, matrix6_invert, matrix6_solve, to_fossen
+from dq_marine.algebra.spatial import matrix6_invert, matrix6_solve, to_fossen
 from dq_marine.physics.damping.build import angular_first
 from dq_marine.physics.damping.formulas.blended import Blend, blended_damping
 from dq_marine.physics.damping.formulas.cross_flow import StripRow, make_strip_sums
+from dq_marine.physics.damping.formulas.diagonal import DiagonalDamping
+from dq_marine.physics.damping.formulas.matrix_kinds import ZERO, sparse_matrix
 from dq_marine.physics.matrices import matrix6, spatial
 
 seeds = st.integers(0, 2**32 - 1)
@@ -24,21 +26,34 @@ def array(m):
     return angular_first(np.block([[a, b], [c, d]]))
 
 
+def array_of(term, nu):
+    """D(nu) of a term in Fossen's order, whatever kind of matrix it is."""
+    d = term._algebra.at(term.matrices, spatial(nu))
+    return array(term._algebra.add_scaled(ZERO, 1.0, d))
+
+
 def random_term(rng, couplings=8):
-    """Damping with some couplings, drawn from all that there can be, rows of strips in both planes, and blends."""
-    tensor = np.zeros((6, 6, 6))
-    for entry in rng.integers(0, 6, (couplings, 3)):
-        tensor[tuple(entry)] = rng.normal()
+    """Damping with some couplings, drawn from all that there can be, rows of strips in both planes, and blends.
+
+    Its linear part is diagonal or full, as it comes.
+    """
+    tensor, signed = np.zeros((2, 6, 6, 6))
+    for one in (tensor, signed):
+        for entry in rng.integers(0, 6, (couplings, 3)):
+            one[tuple(entry)] = rng.normal()
     strips = [
         ("sway", (rng.uniform(), *rng.normal(size=2), 5)),
         ("heave", (rng.uniform(), *rng.normal(size=2), 4)),
     ]
     blends = [(0, tuple(rng.uniform(0.2, 2.0, 3))), (5, tuple(rng.uniform(0.2, 2.0, 3)))]
     linear, quadratic = random_damping(rng), rng.uniform(size=6)
-    term = make_damping(random_inertia(rng), linear, quadratic, tensor, strips, blends=blends)
+    if rng.integers(2):
+        linear = np.diag(np.diag(linear))
+    term = make_damping(random_inertia(rng), linear, quadratic, tensor, strips, blends=blends, signed=signed)
 
     def drag(nu):
         own = linear @ nu + quadratic * np.abs(nu) * nu + np.einsum("ijk,j,k->i", tensor, nu, np.abs(nu))
+        own = own + np.einsum("ijk,j,k->i", signed, nu, nu)
         own = own + sum(strip_drag(plane, *row, nu) for plane, row in strips)
         return own + sum(blended_drag(axis, *numbers, nu) for axis, numbers in blends)
 
@@ -97,7 +112,7 @@ def test_strips_only_take_energy(seed, nu):
         ("heave", (rng.uniform(), *rng.normal(size=2), 3)),
     ]
     term = make_damping(np.eye(6), np.zeros((6, 6)), np.zeros(6), strips=rows)
-    matrix = array(term._algebra.at(term.matrices, spatial(np.array(nu))))
+    matrix = array_of(term, np.array(nu))
     assert np.array_equal(matrix, matrix.T)
     assert np.linalg.eigvalsh(matrix).min() >= -1e-12 * max(1.0, np.abs(matrix).max())
 
@@ -125,13 +140,40 @@ def test_unsymmetric_systems_are_solved(seed):
     rng = np.random.default_rng(seed)
     term, _ = random_term(rng)
     m, nu, load = random_inertia(rng), rng.normal(size=6), rng.normal(size=6)
-    d = term._algebra.at(term.matrices, spatial(nu))
-    system = matrix6_add_scaled(matrix6(angular_first(m)), 0.05, d)
-    exact = np.linalg.solve(m + 0.05 * array(d), load)
+    d = array_of(term, nu)
+    system = matrix6(angular_first(m + 0.05 * d))
+    exact = np.linalg.solve(m + 0.05 * d, load)
     assert np.allclose(to_fossen(matrix6_solve(system, spatial(load))), exact, rtol=1e-9, atol=1e-9)
-    assert np.allclose(
-        array(matrix6_invert(system)), np.linalg.inv(m + 0.05 * array(d)), rtol=1e-9, atol=1e-9
-    )
+    assert np.allclose(array(matrix6_invert(system)), np.linalg.inv(m + 0.05 * d), rtol=1e-9, atol=1e-9)
+
+
+@settings(max_examples=50)
+@given(seed=seeds, couplings=st.integers(0, 12))
+def test_a_sparse_matrix_is_its_array(seed, couplings):
+    """Its sum with a matrix, its product with a vector and its products on both sides of a matrix."""
+    rng = np.random.default_rng(seed)
+    places = sorted({(i, j) for i, j in rng.integers(0, 6, (couplings, 2)).tolist() if i != j})
+    kind = sparse_matrix(tuple(places))
+    diagonal, numbers, m, chi = rng.normal(size=6), rng.normal(size=12), *split(rng)
+    d = kind.own_at(DiagonalDamping(spatial(diagonal), spatial(np.zeros(6))), spatial(chi))
+    d_array = np.diag(angular_first(np.diag(diagonal)).diagonal().copy())
+    for (row, column), number in zip(places, numbers, strict=False):
+        d = kind.make_entry_addition(row, column)(d, number)
+        d_array[row, column] += number
+    for row in range(6):
+        d = kind.make_entry_addition(row, row)(d, 0.5)
+        d_array[row, row] += 0.5
+    d_array, wide = angular_first(d_array), matrix6(angular_first(m))
+    assert np.allclose(array(kind.add_scaled(wide, 0.3, d)), m + 0.3 * d_array, rtol=0, atol=1e-13)
+    assert np.allclose(to_fossen(kind.apply(d, spatial(chi))), d_array @ chi, rtol=0, atol=1e-13)
+    assert np.allclose(array(kind.sandwich(d, wide)), d_array @ m @ d_array, rtol=0, atol=1e-11)
+    assert np.allclose(to_fossen(kind.diagonal(d)), d_array.diagonal(), rtol=0, atol=1e-13)
+
+
+def split(rng):
+    """A symmetric matrix and a velocity."""
+    m = rng.normal(size=(6, 6))
+    return m + m.T, rng.normal(size=6)
 
 
 def test_equal_structures_share_their_functions():

@@ -1,5 +1,7 @@
 """Couplings, cross-flow drag and blended damping in vehicle files: read, refused, and what follows for REMUS 100."""
 
+import re
+
 import numpy as np
 import pytest
 from support.fossen import blended_drag, coriolis, strip_drag
@@ -13,7 +15,8 @@ from dq_marine.vehicles import load_vehicle, vehicle_sheet
 from dq_marine.vehicles.loading import _FOLDER
 from dq_marine.vehicles.model import MOTIONS
 
-TEXT = (_FOLDER / "bluerov2_heavy.toml").read_text()
+TEXT = re.sub(r"(?s)\ncouplings = \[.*?\n\]\n", "\n", (_FOLDER / "bluerov2_heavy.toml").read_text())
+"""BlueROV2 Heavy without the lift of its file."""
 COUPLING = '[[damping.couplings]]\nforce = "sway"\nspeed = "surge"\nvelocity = "sway"\ncoefficient = 28.6\n'
 STRIPS = '[[cross_flow]]\nplane = "sway"\nlength = 0.4\ndepth = 0.2\ndrag_coefficient = 0.9\n'
 BLEND = '[[damping.blended]]\naxis = "surge"\nlinear = 20.0\nquadratic = 150.0\ncrossover = 0.5\n'
@@ -31,7 +34,18 @@ def test_a_coupling_is_an_entry_of_the_tensor(tmp_path):
     tensor[1, 1, 0] = 28.6
     assert np.array_equal(vehicle.damping_couplings, tensor)
     assert Scene(vehicle).terms[-1] == "damping couplings"
-    assert not load_vehicle("bluerov2_heavy").damping_couplings.any()
+    assert not vehicle.signed_damping_couplings.any()
+    assert not load_vehicle(extended(tmp_path)).damping_couplings.any()
+
+
+def test_a_signed_coupling_is_an_entry_of_a_tensor_of_its_own(tmp_path):
+    signed = COUPLING.replace('force = "sway"', 'force = "yaw"') + "signed = true\n"
+    vehicle = load_vehicle(extended(tmp_path, COUPLING, signed))
+    tensor = np.zeros((6, 6, 6))
+    tensor[5, 1, 0] = 28.6
+    assert np.array_equal(vehicle.signed_damping_couplings, tensor)
+    assert np.count_nonzero(vehicle.damping_couplings) == 1
+    assert [one.name for one in vehicle.damping.couplings] == ["sway by |surge| sway", "yaw by surge sway"]
 
 
 @pytest.mark.parametrize("plane", ["sway", "heave"])
@@ -116,6 +130,7 @@ WRONG = {
     "no coefficient": (COUPLING.replace("coefficient = 28.6", ""), "damping.couplings.0.coefficient", "missing"),
     "not finite": (COUPLING.replace("28.6", "inf"), "damping.couplings.0.coefficient", "finite"),
     "derivative's sign": (COUPLING.replace("28.6", "-28.6"), "damping.couplings.0.coefficient", "feeds energy in"),
+    "signed along its own velocity": (COUPLING + "signed = true\n", "damping.couplings.0.signed", "leave signed out"),
     "twice": (COUPLING * 2, "damping.couplings.1", "with the sum"),
     "one axis": (COUPLING.replace("surge", "sway"), "damping.couplings.0", "damping.quadratic[1]"),
     "no drag": (STRIPS.replace("drag_coefficient = 0.9", ""), "cross_flow.0", "give drag_coefficient, or beam"),

@@ -93,6 +93,7 @@ DIAGONAL = DampingAlgebra(
     growth=own_axis_growth,
     apply=spatial_multiply_elementwise,
     add_scaled=diagonal_add_scaled,
+    add_slope=diagonal_add_scaled,
     sandwich=diagonal_sandwich,
 )
 FULL = DampingAlgebra(
@@ -101,5 +102,6 @@ FULL = DampingAlgebra(
     growth=own_axis_growth,
     apply=matrix6_transform,
     add_scaled=matrix6_add_scaled,
+    add_slope=matrix6_add_scaled,
     sandwich=full_sandwich,
 )

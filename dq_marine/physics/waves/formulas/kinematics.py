@@ -6,7 +6,7 @@ the surface by a cos(theta), theta = omega t - k e . x + phase. In deep water th
     velocity      a omega e^{-kz} (cos theta e + sin theta down)
     acceleration  a omega^2 e^{-kz} (-sin theta e + cos theta down)
 
-(Faltinsen 1990, Sea Loads on Ships and Offshore Structures, table 2.1). Over a bottom at depth d the two parts decay as
+(Faltinsen 1990, Sea Loads on Ships and Offshore Structures, ch. 2). Over a bottom at depth d the two parts decay as
 cosh k(d - z)/sinh kd and sinh k(d - z)/sinh kd instead. Second order in the amplitude is left out, so above the still
 water's surface everything is as at the surface. The body's own position enters theta: the frequency of encounter comes
 of itself.
@@ -150,7 +150,7 @@ def make_submerged_waves(orbit: Orbit) -> PoseForce:
     """Return the first-order wave force on a submerged hull much narrower than the waves are long.
 
     A body that is neither heavy nor damped and much smaller than the waves has M (dv/dt - a) = 0 by it, a the water's
-    acceleration: Froude-Krylov force rho V a and diffraction M_A a (Faltinsen 1990, eq. 3.36, in all directions).
+    acceleration: Froude-Krylov force rho V a and diffraction M_A a (Faltinsen 1990, ch. 3, in all directions).
     Linear damping acts on the velocity through the water that the waves move.
     """
 

@@ -1,0 +1,1 @@
+"""Formulas of the whole-ship model, as plain functions on tuples."""
