@@ -11,7 +11,6 @@ from numba import types
 
 from dq_marine.backend.compilation import compile_function
 from dq_marine.backend.packing import make_load, store, structure_type
-from dq_marine.integrator.body import AT_REST
 from dq_marine.integrator.step import Composition, StepParameters, in_water
 from dq_marine.task.action import action_size, make_saturated
 from dq_marine.task.episode import EpisodeTask
@@ -50,7 +49,7 @@ def compiled_control_period(
     load_parameters = make_load(step_layout)
     load_episode = make_load(episode_layout)
     load_memory = make_load(memory_layout)
-    load_state = make_load(structure_type(AT_REST))
+    load_state = make_load(structure_type(composition.at_rest))
     load_uniforms = make_load(structure_type(draws_of_period(composition, task)))
     keep = keep_water if composition.water.draws else keep_nothing
     size = action_size(composition)

@@ -76,6 +76,7 @@ def check_tables(structures: Sequence[Any]) -> None:
     first = tables_in(structures[0])
     if first and any(tables_in(other) != first for other in structures[1:]):
         raise InvalidInputError(
-            "the bodies of a batch are in different seas or gusts, or answer to them by different tables; give all "
-            "the same weather (a seed fixes it), and vehicles of one size, or bodies in batches of their own"
+            "the bodies of a batch are in different seas or gusts, answer to them by different tables, or remember "
+            "their own waves by different models; give all the same weather (a seed fixes it), and vehicles of one "
+            "size and one table of radiation, or bodies in batches of their own"
         )

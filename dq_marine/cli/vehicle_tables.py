@@ -116,6 +116,7 @@ def _steps(sheet: Sheet) -> list[tuple[str, str]]:
         (f"largest step for translation {ahead}", f"{_number(sheet.translation_step)} s"),
         ("largest step: a tenth of it is accurate", f"{_number(sheet.largest_step)} s"),
         ("the file's numbers hold for", ", ".join(sheet.validity) or "not known"),
+        *(("radiation memory", line) for line in sheet.radiation_memory),
     ]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_from_parts, pose_position
 from dq_marine.algebra.quaternion import Quaternion, rotate
@@ -12,10 +12,17 @@ from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 
 
 class BodyState(NamedTuple):
-    """Pose, body to NED, and momentum relative to the water, in the body frame."""
+    """The state of one body.
+
+    Attributes:
+        pose: body to NED.
+        momentum: relative to the water, in the body frame.
+        fluid_memory: of the water around it, see `integrator.fluid_memory`; () in a scene without.
+    """
 
     pose: DualQuaternion
     momentum: Spatial
+    fluid_memory: Any = ()
 
 
 AT_REST = BodyState(pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), ZERO)
@@ -23,7 +30,7 @@ AT_REST = BodyState(pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), ZERO
 
 
 BODY_NUMBERS = 15
-"""Of a body's state: time, pose, momentum."""
+"""Of a body's state: time, pose, momentum; without fluid memory."""
 
 
 class Motion(NamedTuple):

@@ -94,7 +94,7 @@ def make_composed(composition: Composition) -> Advance:
                 flown = fly(parameters, node, stages[stage], pose, momentum, progress.under_way)
                 progress = progress_with(progress, flown)
                 if not some(progress.under_way):
-                    return arrival(state, pose, momentum, progress)
+                    return arrival(state, pose, momentum, state.fluid_memory, progress)
                 pose = flown.pose
                 last = stage == len(stages) - 1
                 following = 0.0 if last and step == steps - 1 else stages[0 if last else stage + 1]
@@ -103,6 +103,6 @@ def make_composed(composition: Composition) -> Advance:
                 duration = 0.5 * (stages[stage] + following)
                 momentum = spatial_add_scaled(flown.momentum, duration, force)
             progress = progress_by_step(progress)
-        return arrival(state, pose, momentum, progress)
+        return arrival(state, pose, momentum, state.fluid_memory, progress)
 
     return composed

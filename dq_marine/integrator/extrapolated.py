@@ -83,7 +83,7 @@ def joined(progress: Progress, outcome: StepOutcome) -> Progress:
 
 def make_extrapolated(composition: Composition) -> Advance:
     """Return the advance of the extrapolated method."""
-    strang = make_strang(composition)
+    strang, combine = make_strang(composition), composition.memory.combine
 
     def pieces(
         parameters: StepParameters,
@@ -119,12 +119,14 @@ def make_extrapolated(composition: Composition) -> Advance:
             progress = progress_by_step(progress)
             if not some(progress.under_way):
                 break
+            coarse = combine(WEIGHT_WHOLE, whole.fluid_memory, WEIGHT_HALVES, halves.fluid_memory)
             now = BodyState(
                 select_call(
                     progress.under_way, weighted_pose, (whole.pose, halves.pose, thirds.pose), whole.pose
                 ),
                 weighted_momentum(whole.momentum, halves.momentum, thirds.momentum),
+                combine(1.0, coarse, WEIGHT_THIRDS, thirds.fluid_memory),
             )
-        return arrival(state, now.pose, now.momentum, progress)
+        return arrival(state, now.pose, now.momentum, now.fluid_memory, progress)
 
     return extrapolated

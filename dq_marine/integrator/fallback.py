@@ -79,7 +79,7 @@ def make_take(step: Step, fallback: Advance) -> Take:
 
     Args:
         step: whose report says by `on_rest_branch` whether its equations are solved.
-        fallback: with `timing.fallback` for its timing.
+        fallback: with `timing.fallback` for its timing; of a scene without fluid memory.
     """
 
     def take(
@@ -94,7 +94,7 @@ def make_take(step: Step, fallback: Advance) -> Take:
         if some(lost):
             inertia, damping, forces, water, timing = parameters
             timed = StepParameters(inertia, damping, forces, water, timing.fallback)
-            state = BodyState(pose, momentum)
+            state = BodyState(pose, momentum, ())
             none = spread(0, momentum.linear[0])
             unmoved = StepOutcome(state, none, none, 0, none, report.solver.relative_residual_squared)
             outcome = select_call(lost, fallback, (timed, state, wrench, time, 1), unmoved)
@@ -118,6 +118,6 @@ def make_advance_with_fallback(step: Step, fallback: Advance) -> Advance:
             now = take(parameters, wrench, time + step * h, h, now, now.progress.under_way)
             if not some(now.progress.under_way):
                 break
-        return arrival(state, now.pose, now.momentum, now.progress)
+        return arrival(state, now.pose, now.momentum, state.fluid_memory, now.progress)
 
     return advance

@@ -82,7 +82,7 @@ def make_in_pieces(composition: Composition, order: int, strang: Composition) ->
             while done < pieces and fine:
                 start = time + done * h
                 pose, momentum, report = step(parameters, start, h, moved.pose, moved.momentum, wrench)
-                moved, fine = BodyState(pose, momentum), usable(report)
+                moved, fine = BodyState(pose, momentum, state.fluid_memory), usable(report)
                 worst = max(worst, report.solver.relative_residual_squared)
                 iterations += report.solver.iterations
                 done += 1

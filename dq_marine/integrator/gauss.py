@@ -75,7 +75,7 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
                 for step in range(count):
                     now = take(parameters, wrench, node + step * h, h, now, pushed)
             done += count
-        return arrival(state, now.pose, now.momentum, now.progress)
+        return arrival(state, now.pose, now.momentum, state.fluid_memory, now.progress)
 
     return unforced
 

@@ -20,6 +20,7 @@ from dq_marine.algebra.spatial import Spatial, spatial_add_scaled, spatial_subtr
 from dq_marine.algebra.vector3 import add_scaled, subtract
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.extrapolated import joined
+from dq_marine.integrator.fluid_memory import Combine
 from dq_marine.integrator.step import (
     Advance,
     Composition,
@@ -54,18 +55,22 @@ def corrected_attitude(whole: Quaternion, halves: Quaternion) -> Quaternion:
     return (w / size, x / size, y / size, z / size)
 
 
-def corrected(whole: BodyState, halves: BodyState) -> BodyState:
-    """Return the extrapolated state."""
+def corrected(whole: BodyState, halves: BodyState, combine: Combine) -> BodyState:
+    """Return the extrapolated state; `combine` is that of the fluid memory."""
     position = pose_position(halves.pose)
     moved = add_scaled(position, THIRD, subtract(position, pose_position(whole.pose)))
     attitude = corrected_attitude(whole.pose.real, halves.pose.real)
     change = spatial_subtract(halves.momentum, whole.momentum)
-    return BodyState(pose_from_parts(attitude, moved), spatial_add_scaled(halves.momentum, THIRD, change))
+    return BodyState(
+        pose_from_parts(attitude, moved),
+        spatial_add_scaled(halves.momentum, THIRD, change),
+        combine(1.0 + THIRD, halves.fluid_memory, -THIRD, whole.fluid_memory),
+    )
 
 
 def make_richardson(composition: Composition) -> Advance:
     """Return the advance of the extrapolated method."""
-    strang = make_strang(composition)
+    strang, combine = make_strang(composition), composition.memory.combine
 
     def richardson(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
@@ -85,7 +90,7 @@ def make_richardson(composition: Composition) -> Advance:
             progress = progress_by_step(progress)
             if not some(progress.under_way):
                 break
-            now = corrected(whole, halves)
-        return arrival(state, now.pose, now.momentum, progress)
+            now = corrected(whole, halves, combine)
+        return arrival(state, now.pose, now.momentum, now.fluid_memory, progress)
 
     return richardson

@@ -15,12 +15,13 @@ from typing import Any, NamedTuple, TypeAlias
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_from_parts, pose_position
 from dq_marine.algebra.quaternion import Quaternion
 from dq_marine.algebra.selection import negation, select, select_call, some, spread
-from dq_marine.algebra.spatial import Spatial, spatial_add, spatial_subtract
+from dq_marine.algebra.spatial import ZERO, Spatial, spatial_add, spatial_subtract
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.actuation import NO_ACTUATION, Actuation
-from dq_marine.integrator.body import BodyState, Motion
+from dq_marine.integrator.body import AT_REST, BodyState, Motion
 from dq_marine.integrator.drift import Drift
 from dq_marine.integrator.drift_report import DriftReport, drift_accepted, equation_met
+from dq_marine.integrator.fluid_memory import NO_MEMORY, FluidMemory
 from dq_marine.integrator.forces import PoseForce, Potential, VelocityForce
 from dq_marine.integrator.inertia import Inertia, momentum_from_twist, twist_from_momentum
 from dq_marine.integrator.kick import Kick
@@ -57,6 +58,7 @@ class Composition:
         water: what moving water does.
         actuation: the vehicle's actuators; their force is the first of its list. None, unless a scene has them.
         potentials: of the pose forces, if all forces of the scene have one and the method makes use of them.
+        memory: that of the water.
     """
 
     method: Callable[[Composition], Advance]
@@ -68,6 +70,12 @@ class Composition:
     water: Water
     actuation: Actuation = NO_ACTUATION
     potentials: tuple[Potential, ...] = ()
+    memory: FluidMemory = NO_MEMORY
+
+    @property
+    def at_rest(self) -> BodyState:
+        """At the world's origin, axes aligned, at rest in water that is undisturbed."""
+        return BodyState(AT_REST.pose, ZERO, self.memory.rest)
 
     @property
     def forceless(self) -> bool:
@@ -232,11 +240,13 @@ def progress_by_step(progress: Progress) -> Progress:
     )
 
 
-def arrival(start: BodyState, pose: DualQuaternion, momentum: Spatial, progress: Progress) -> StepOutcome:
+def arrival(
+    start: BodyState, pose: DualQuaternion, momentum: Spatial, fluid_memory: Any, progress: Progress
+) -> StepOutcome:
     """Return the outcome of a call: where its steps led, unless one was refused or that is not finite."""
     finite = is_finite(pose, momentum)
     status = select(progress.under_way & negation(finite), NOT_FINITE, progress.status)
-    state = select(progress.under_way & finite, BodyState(pose, momentum), start)
+    state = select(progress.under_way & finite, BodyState(pose, momentum, fluid_memory), start)
     return StepOutcome(
         state, status, progress.completed, progress.iterations, progress.fallbacks, progress.residual_squared
     )
@@ -245,15 +255,19 @@ def arrival(start: BodyState, pose: DualQuaternion, momentum: Spatial, progress:
 def make_placement(
     composition: Composition,
 ) -> Callable[[StepParameters, Vector3, Quaternion, Spatial], BodyState]:
-    """Return (parameters, position, attitude, velocity over ground) -> the state of a body placed so."""
-    water_twist = composition.water.twist
+    """Return (parameters, position, attitude, velocity over ground) -> the state of a body placed so.
+
+    The water has no memory of a motion before.
+    """
+    water_twist, undisturbed = composition.water.twist, composition.memory.rest
 
     def place(
         parameters: StepParameters, position_ned: Vector3, attitude: Quaternion, velocity: Spatial
     ) -> BodyState:
         pose = pose_from_parts(attitude, position_ned)
         relative = spatial_subtract(velocity, water_twist(parameters.water, pose))
-        return BodyState(pose, momentum_from_twist(parameters.inertia, relative))
+        momentum = momentum_from_twist(parameters.inertia, relative)
+        return BodyState(pose, momentum, spread(undisturbed, momentum.linear[0]))
 
     return place
 

@@ -24,22 +24,24 @@ from dq_marine.integrator.step import (
 class StrangTiming(NamedTuple):
     """Step size [s], and the parameters of the composition's kick: opening a step, closing one, and both at once.
 
-    The first two last h/2, the third h.
+    The first two last h/2, the third h. The numbers of the fluid memory are for h/2; () without.
     """
 
     h: float
     opening: Any
     closing: Any
     between: Any
+    memory: Any = ()
 
 
 def make_strang(composition: Composition) -> Advance:
     """Return the advance of Strang's method.
 
-    The closing half kick of a step and the opening one of the next share a pose and are taken as one full kick.
+    The closing half kick of a step and the opening one of the next share a pose and are taken as one full kick. The
+    fluid memory, where there is one, flows for half a step before the drift and for half a step after it.
     """
     kick = make_forced_kick(composition.kick, composition.pose_forces, composition.velocity_forces)
-    fly = make_flight(composition)
+    fly, remember = make_flight(composition), composition.memory.flow
 
     def strang(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
@@ -48,16 +50,19 @@ def make_strang(composition: Composition) -> Advance:
         forces, damping = parameters.forces, parameters.damping
         pose = state.pose
         momentum = kick(forces, damping, inertia, timing.opening, pose, state.momentum, time, wrench)
+        memory = state.fluid_memory
         progress = set_out(state)
         for step in range(steps):
+            momentum, memory = remember(timing.memory, momentum, memory)
             flown = fly(parameters, time + step * timing.h, timing.h, pose, momentum, progress.under_way)
             progress = progress_by_step(progress_with(progress, flown))
             if not some(progress.under_way):
                 break
             pose = flown.pose
+            momentum, memory = remember(timing.memory, flown.momentum, memory)
             node = time + (step + 1) * timing.h
             following = timing.closing if step == steps - 1 else timing.between
-            momentum = kick(forces, damping, inertia, following, pose, flown.momentum, node, wrench)
-        return arrival(state, pose, momentum, progress)
+            momentum = kick(forces, damping, inertia, following, pose, momentum, node, wrench)
+        return arrival(state, pose, momentum, memory, progress)
 
     return strang

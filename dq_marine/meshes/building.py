@@ -84,11 +84,14 @@ def build_vehicle(mesh: Path, choices: Choices, progress: Progress) -> BuiltVehi
     righting = np.concatenate([np.zeros(2), np.diag(stiffness), np.zeros(1)])
     linear, why_linear = linear_damping(form, drag, inertia + added, righting, natural)
     ahead = (linear[0] + drag.quadratic[0] * form.speed) * form.speed
+    damping = {"linear": rounded(linear), "quadratic": rounded(drag.quadratic)}
+    if natural is not None:
+        damping["wave_share"] = rounded(wave_share(np.array(linear), natural))
     limits, why_limits = wrench_limits(hull, choices, ahead, form.speed)
     content = _content(mesh, hull, choices, form, drag) | {
         "rigid_body": body,
         "added_mass": added.tolist(),
-        "damping": {"linear": rounded(linear), "quadratic": rounded(drag.quadratic)},
+        "damping": damping,
         "limits": {"wrench": rounded(limits)},
     }
     if hull.waterline is not None:
@@ -103,6 +106,12 @@ def build_vehicle(mesh: Path, choices: Choices, progress: Progress) -> BuiltVehi
     }
     whole = content if waves is None else content | {"radiation": waves.table}
     return BuiltVehicle(validated(whole, str(mesh)), content, reasons, hull, len(panels), waves)
+
+
+def wave_share(linear: Array, radiated: Array) -> Array:
+    """Return how much of each linear damping is radiation, 0 where there is none; all of shape (6,)."""
+    part = np.clip(radiated, 0.0, linear)
+    return np.asarray(np.divide(part, linear, out=np.zeros(6), where=linear > 0.0))
 
 
 def rigid_body_matrix(body: Mapping[str, Any]) -> Array:

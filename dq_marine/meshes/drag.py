@@ -223,5 +223,8 @@ def linear_damping(
             reasons.append(f"{motion}: a relative damping of {RELATIVE_DAMPING[motion]:g}, an estimate")
         if radiated is not None:
             linear[axis] += max(float(radiated[axis]), 0.0)
-            reasons.append(f"{motion}: {radiated[axis]:.4g} of wave radiation at the natural frequency")
+            reasons.append(
+                f"{motion}: {radiated[axis]:.4g} of wave radiation at the natural frequency (wave_share, which "
+                'radiation = "memory" takes out)'
+            )
     return tuple(linear.tolist()), tuple(reasons)

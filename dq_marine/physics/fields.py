@@ -37,6 +37,8 @@ def _not_vanishing(value: float) -> float:
 
 NonNegative: TypeAlias = Annotated[float, Field(ge=0)]
 Positive: TypeAlias = Annotated[float, Field(gt=0), AfterValidator(_not_vanishing)]
+Share: TypeAlias = Annotated[float, Field(ge=0, le=1)]
+Share6: TypeAlias = tuple[Share, Share, Share, Share, Share, Share]
 NonNegative6: TypeAlias = tuple[NonNegative, NonNegative, NonNegative, NonNegative, NonNegative, NonNegative]
 
 

@@ -82,7 +82,7 @@ def compiled_walk(name: str, layout: Any) -> Callable[..., bool]:
 
     def walk_arrays(inertia: Any, state: Any, h: float, pieces: int) -> Any:
         numbers = load_inertia(inertia)
-        pose, momentum = load_state(state)
+        pose, momentum, _ = load_state(state)
         for _ in range(pieces):
             pose, momentum, report = drift(numbers, h / pieces, pose, momentum)
             if not report.solver.on_rest_branch:

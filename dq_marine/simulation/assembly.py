@@ -15,16 +15,18 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.actuation import NO_ACTUATION
 from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.integrator.extrapolated import ExtrapolatedTiming, make_extrapolated
+from dq_marine.integrator.fluid_memory import NO_MEMORY
 from dq_marine.integrator.forces import Potential
 from dq_marine.integrator.kick import Kick
 from dq_marine.integrator.midpoint_drift import midpoint_drift, midpoint_fallback
 from dq_marine.integrator.paper_drift import paper_drift, paper_fallback
 from dq_marine.integrator.richardson import RichardsonTiming, make_richardson
 from dq_marine.integrator.step import Advance, Composition, StepParameters
-from dq_marine.integrator.strang import make_strang
+from dq_marine.integrator.strang import StrangTiming, make_strang
 from dq_marine.physics.actuators.build import ActuationTerm
 from dq_marine.physics.damping.build import DampingTerm
 from dq_marine.physics.matrices import inertia_term
+from dq_marine.physics.radiation.build import MemoryTerm
 from dq_marine.physics.term import ForceTerm, WaterTerm, nested_parameters
 from dq_marine.simulation.collocated import COLLOCATED, Collocated
 
@@ -83,6 +85,7 @@ class Assembly:
         scheme: one of `SCHEMES`.
         order: one of `ORDERS`.
         actuators: those that drive the body, if any.
+        memory: that of the water, if it has one; M is then its own.
     """
 
     mass_matrix: NDArray[np.float64]
@@ -92,6 +95,7 @@ class Assembly:
     scheme: str = "midpoint"
     order: int = 2
     actuators: ActuationTerm | None = None
+    memory: MemoryTerm | None = None
 
     def __post_init__(self) -> None:
         """Check the scheme and the order.
@@ -100,6 +104,11 @@ class Assembly:
             InvalidInputError: with the reason.
         """
         check_method(self.scheme, self.order)
+        if self.memory is not None and self._collocated:
+            raise InvalidInputError(
+                f'scheme = {self.scheme!r} of order {self.order} knows no radiation memory; give scheme="midpoint" of '
+                'order 2 or 4, or radiation="constant"'
+            )
         if self.order > 4 and self.dissipation and not self._collocated:
             raise InvalidInputError(
                 f"order = {self.order}, but there is {self.dissipation}: orders above 4 take negative stages, which "
@@ -109,13 +118,22 @@ class Assembly:
     @property
     def terms(self) -> tuple[str, ...]:
         """Names of what the step computes besides inertia and the control wrench."""
-        names = [*(force.name for force in self._present(0.0)), *self.damping.names, self.water.name]
+        names = [
+            *(force.name for force in self._present(0.0)),
+            *self.damping.names,
+            self._memory_name,
+            self.water.name,
+        ]
         return tuple(filter(None, names))
 
     @property
     def dissipation(self) -> str:
-        """Names of what takes energy, or may: damping and velocity forces; empty if nothing does."""
-        names = [*self.damping.names, *(force.name for force in self._velocity_forces(0.0))]
+        """Names of what takes energy, or may: damping, memory and velocity forces; empty if nothing does."""
+        names = [
+            *self.damping.names,
+            self._memory_name,
+            *(force.name for force in self._velocity_forces(0.0)),
+        ]
         return ", ".join(filter(None, names))
 
     @property
@@ -134,6 +152,7 @@ class Assembly:
             fallback=fallback,
             water=self.water.water,
             actuation=NO_ACTUATION if self.actuators is None else self.actuators.actuation,
+            memory=NO_MEMORY if self.memory is None else self.memory.memory,
         )
 
     def parameters_at(self, step: float) -> StepParameters:
@@ -153,6 +172,14 @@ class Assembly:
         if self._collocated:
             return self._collocated.timing(self.damping, step)
         return self._method.timing(step)
+
+    @property
+    def _memory_name(self) -> str:
+        return "" if self.memory is None else "radiation memory"
+
+    def _strang_timing(self, step: float) -> StrangTiming:
+        timing = self.damping.timing(step)
+        return timing if self.memory is None else timing._replace(memory=self.memory.numbers(0.5 * step))
 
     def _present(self, step: float) -> tuple[ForceTerm, ...]:
         """Return all forces; the actuators' first, where `physics.actuators.formulas.stepping` finds it."""
@@ -187,7 +214,7 @@ class Assembly:
     def _method(self) -> Method:
         damping = self.damping
         if self.order == 2:
-            return Method(make_strang, damping.kick, damping.timing)
+            return Method(make_strang, damping.kick, self._strang_timing)
         if not self.dissipation:
             stages = STAGES[self.order]
             return Method(
@@ -197,10 +224,10 @@ class Assembly:
             return Method(
                 make_extrapolated,
                 damping.kick,
-                lambda h: ExtrapolatedTiming(*(damping.timing(h / pieces) for pieces in (1, 2, 3))),
+                lambda h: ExtrapolatedTiming(*(self._strang_timing(h / pieces) for pieces in (1, 2, 3))),
             )
         return Method(
             make_richardson,
             damping.accurate_kick,
-            lambda h: RichardsonTiming(*(damping.timing(h / pieces) for pieces in (1, 2))),
+            lambda h: RichardsonTiming(*(self._strang_timing(h / pieces) for pieces in (1, 2))),
         )

@@ -20,7 +20,7 @@ from dq_marine.backend.simd.packing import empty_blocks, pack_blocks, pack_share
 from dq_marine.backend.workers import Workers
 from dq_marine.checks import finite_rows, positive_integer, unit_quaternion_rows
 from dq_marine.errors import InvalidInputError
-from dq_marine.integrator.body import AT_REST, BODY_NUMBERS, BodyState, kinetic_energy, spatial_momentum
+from dq_marine.integrator.body import BODY_NUMBERS, BodyState, kinetic_energy, spatial_momentum
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import (
     ACCEPTED,
@@ -86,7 +86,9 @@ class Batch:
         numbers = {key: pack(row) for key, row in distinct.items()}
         packed = [numbers[id(row)] for row in parameters]
         self._like = parameters[0]
-        self._layout = layout = lane_layout(parameters[0], differing_fields(list(distinct.values())), lanes)
+        self._at_rest = composition.at_rest
+        differing = differing_fields(list(distinct.values()))
+        self._layout = layout = lane_layout(parameters[0], self._at_rest, differing, lanes)
         self._shared = pack_shared(layout.parameters, packed[0])
         self._own = empty_blocks(layout.parameters, self.size, lanes)
         pack_blocks(layout.parameters, packed, self._own)
@@ -230,6 +232,11 @@ class Batch:
         return np.stack(to_fossen(self._motion(self._parameters, self._bodies).velocity), axis=1)
 
     @property
+    def fluid_memory(self) -> NDArray[np.float64]:
+        """State of the water's memory, see `OneBody.fluid_memory`, shape (size, m) [J^(1/2)]."""
+        rows = unpack_blocks(self._layout.state, self._shared, self._states, self.size)
+        return rows[:, BODY_NUMBERS - 1 :]
+
     def kinetic_energy(self) -> NDArray[np.float64]:
         """(1/2) nu_r . M nu_r [J], of body and water, relative to the undisturbed water, shape (size,)."""
         return np.asarray(kinetic_energy(self._parameters.inertia, self._bodies.momentum))
@@ -240,7 +247,7 @@ class Batch:
         return np.stack(to_fossen(spatial_momentum(self._bodies)), axis=1)
 
     def get_state(self) -> NDArray[np.float64]:
-        """Return time, pose, momentum, channel values and commands of every body, shape (size, 15 + 2 n).
+        """Return time, pose, momentum, fluid memory, channel values and commands, shape (size, 15 + m + 2 n).
 
         `set_state` restores them bit for bit.
         """
@@ -255,8 +262,9 @@ class Batch:
         Raises:
             InvalidInputError: shape or value is wrong; nothing is changed.
         """
-        given = finite_rows("state", state, self.size, BODY_NUMBERS + 2 * self._channels.count)
-        numbers, channels = given[:, :BODY_NUMBERS], given[:, BODY_NUMBERS:]
+        body_numbers = BODY_NUMBERS + self._remembered
+        given = finite_rows("state", state, self.size, body_numbers + 2 * self._channels.count)
+        numbers, channels = given[:, :body_numbers], given[:, body_numbers:]
         check_size("state", given)
         check_states("state", numbers[:, 1:])
         if (numbers[:, 0] != numbers[0, 0]).any():
@@ -277,12 +285,17 @@ class Batch:
 
     @property
     def _bodies(self) -> BodyState:
-        """Pose and momentum as the step has them, of arrays of shape (size,)."""
+        """Pose, momentum and fluid memory as the step has them, of arrays of shape (size,)."""
         rows = unpack_blocks(self._layout.state, self._shared, self._states, self.size)
-        return unpack_columns(AT_REST, rows)
+        return unpack_columns(self._at_rest, rows)
 
     def _set_rows(self, rows: NDArray[np.float64]) -> None:
         pack_blocks(self._layout.state, rows, self._states)
+
+    @property
+    def _remembered(self) -> int:
+        """Numbers of a body's fluid memory."""
+        return pack(self._at_rest.fluid_memory).size
 
     def _outcome(self, field: int) -> NDArray[Any]:
         return self._outcomes[:, field, :].reshape(-1)[: self.size]

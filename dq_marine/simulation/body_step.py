@@ -11,7 +11,6 @@ from numba import types
 from dq_marine.algebra.spatial import from_fossen
 from dq_marine.backend.compilation import compile_function
 from dq_marine.backend.packing import make_load, store, structure_type
-from dq_marine.integrator.body import AT_REST
 from dq_marine.integrator.step import ACCEPTED, Composition, make_advance
 from dq_marine.physics.actuators.formulas.stepping import make_actuated_advance
 
@@ -20,12 +19,12 @@ from dq_marine.physics.actuators.formulas.stepping import make_actuated_advance
 def compiled_advance(composition: Composition, layout: types.Type) -> Callable[..., Any]:
     """Compile (parameters, state, wrench, time, steps) -> (status, completed, iterations, fallbacks, residual_squared).
 
-    All arrays float64: `parameters` packed from the `StepParameters` of `layout`, `state` (14,) changed in
+    All arrays float64: `parameters` packed from the `StepParameters` of `layout`, `state` (14 + m,) changed in
     place and only if the status is ACCEPTED, `wrench` (6,) in Fossen's order.
     """
     advance = make_advance(composition)
     load_parameters = make_load(layout)
-    load_state = make_load(structure_type(AT_REST))
+    load_state = make_load(structure_type(composition.at_rest))
 
     def advance_arrays(parameters: Any, state: Any, wrench: Any, time: float, steps: int) -> Any:
         force = from_fossen((wrench[0], wrench[1], wrench[2], wrench[3], wrench[4], wrench[5]))
@@ -50,7 +49,7 @@ def compiled_actuated_advance(composition: Composition, layout: types.Type) -> C
     `values` and `commands` of the channels are float64 arrays; `values` is changed in place as `state` is.
     """
     advance = make_actuated_advance(composition)
-    load_parameters, load_state = make_load(layout), make_load(structure_type(AT_REST))
+    load_parameters, load_state = make_load(layout), make_load(structure_type(composition.at_rest))
     load_channels = make_load(structure_type(composition.actuation.rest))
 
     def actuated_arrays(

@@ -20,7 +20,7 @@ from dq_marine.checks import (
     unit_quaternion,
 )
 from dq_marine.errors import InvalidInputError, StepNotSolvableError
-from dq_marine.integrator.body import AT_REST, BODY_NUMBERS, BodyState, kinetic_energy, spatial_momentum
+from dq_marine.integrator.body import BODY_NUMBERS, BodyState, kinetic_energy, spatial_momentum
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import (
     ACCEPTED,
@@ -94,7 +94,7 @@ class OneBody:
         quaternion_body_to_ned: ArrayLike = (1.0, 0.0, 0.0, 0.0),
         velocity_body: ArrayLike = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
     ) -> None:
-        """Place the body with its actuators at rest and set the time to 0.
+        """Place the body with its actuators at rest, in water without waves of its own, and set the time to 0.
 
         Args:
             position_ned: shape (3,) [m].
@@ -245,8 +245,8 @@ class OneBody:
 
     @property
     def state(self) -> BodyState:
-        """Pose and momentum as the step has them."""
-        return unpack(AT_REST, self._state)
+        """Pose, momentum and fluid memory as the step has them."""
+        return unpack(self._composition.at_rest, self._state)
 
     @property
     def pose_body_to_ned(self) -> NDArray[np.float64]:
@@ -291,8 +291,16 @@ class OneBody:
         """Momentum [linear, angular] in NED about the world origin, relative to the water, shape (6,)."""
         return np.array(to_fossen(spatial_momentum(self.state)))
 
+    @property
+    def fluid_memory(self) -> NDArray[np.float64]:
+        """State of the water's memory, shape (m,) [J^(1/2)]: half its square is the energy of the waves remembered.
+
+        m = 0 in a scene without; see `dq_marine.integrator.fluid_memory`.
+        """
+        return self._state[BODY_NUMBERS - 1 :].copy()
+
     def get_state(self) -> NDArray[np.float64]:
-        """Return time, pose, momentum, channel values and commands, shape (15 + 2 n,).
+        """Return time, pose, momentum, fluid memory, channel values and commands, shape (15 + m + 2 n,).
 
         `set_state` restores them bit for bit.
         """
@@ -304,8 +312,9 @@ class OneBody:
         Raises:
             InvalidInputError: shape or value is wrong; nothing is changed.
         """
-        given = finite_array("state", state, BODY_NUMBERS + 2 * self._channels.count)
-        numbers, channels = given[:BODY_NUMBERS], given[BODY_NUMBERS:]
+        body_numbers = self._state.size + 1
+        given = finite_array("state", state, body_numbers + 2 * self._channels.count)
+        numbers, channels = given[:body_numbers], given[body_numbers:]
         check_size("state", given)
         check_states("state", numbers[1:])
         self.time = float(numbers[0])

@@ -25,6 +25,7 @@ from dq_marine.physics.current.build import (
 from dq_marine.physics.damping.build import vehicle_damping
 from dq_marine.physics.hydrostatics.build import hydrostatic_terms, natural_frequencies
 from dq_marine.physics.manoeuvring.build import manoeuvring_terms
+from dq_marine.physics.radiation.build import memory_term
 from dq_marine.physics.term import ForceTerm, checked_forces
 from dq_marine.physics.weather import weather_terms
 from dq_marine.physics.weather.choice import Weather
@@ -61,6 +62,7 @@ class Scene:
         forces: Sequence[ForceTerm] = (),
         actuation: str = "wrench",
         gravity: float | None = None,
+        radiation: str = "constant",
     ) -> None:
         """Check and compose the scene.
 
@@ -84,6 +86,9 @@ class Scene:
                 fins, with their limits and lags: see `OneBody.actuate`.
             gravity: g [m/s^2], which weight, buoyancy and the lengths of waves follow; None for the vehicle's own, 9.81
                 where its file says nothing.
+            radiation: how the waves that a hull makes act on it. "constant": by the constant added mass and damping of
+                its file. "memory": by those of all frequencies, for a vehicle whose file has them: see
+                `dq_marine.physics.radiation.model`. They are those of a hull without way on, and hold for small speeds.
 
         Raises:
             InvalidInputError: a value is wrong, the step is too large for the vehicle's restoring forces, or the
@@ -101,6 +106,7 @@ class Scene:
             order=order,
             kick=kick,
             gravity=gravity,
+            radiation=radiation,
             control_period=finite_number("step", step),
             substeps=1,
         )
@@ -123,6 +129,11 @@ class Scene:
         self._check_restoring_step()
         mass_matrix = self.vehicle.mass_matrix
         damping = vehicle_damping(self.vehicle, l_stable=self.kick == "l_stable")
+        memory = memory_term(self.vehicle, settings.radiation)
+        if memory is not None:
+            mass_matrix = memory.mass_matrix
+            viscous = self.vehicle.linear_damping_without_waves
+            damping = damping._replace(linear=viscous, mass_matrix=mass_matrix)
         restoring = hydrostatic_terms(self.vehicle, self.hydrostatics)
         of_weather = checked_forces(weather_terms(self.weather, self.vehicle, self.current_ned))
         ships = (*manoeuvring_terms(self.vehicle), *whole_ship_terms(self.vehicle))
@@ -130,7 +141,7 @@ class Scene:
         actuators = actuation_term(self.vehicle) if self.actuation == "thrusters" else None
         water = self.current.term(self.vehicle)
         self._assembly = Assembly(
-            mass_matrix, present, damping, water, settings.scheme, settings.order, actuators=actuators
+            mass_matrix, present, damping, water, settings.scheme, settings.order, actuators, memory
         )
         self._check_direction_of_time()
 
@@ -140,7 +151,7 @@ class Scene:
         return (
             f"Scene({self.vehicle.name!r}, current={current}, scheme={self.scheme!r}, step={self.step:g}, "
             f"order={self.order}, kick={self.kick!r}, hydrostatics={self.hydrostatics!r}, "
-            f"actuation={self.actuation!r}, gravity={self.gravity:g}; computes {terms})"
+            f"actuation={self.actuation!r}, gravity={self.gravity:g}, radiation={self.radiation!r}; computes {terms})"
         )
 
     def __reduce__(self) -> Any:
@@ -191,6 +202,11 @@ class Scene:
     def gravity(self) -> float:
         """Acceleration of gravity [m/s^2]."""
         return self.vehicle.gravity
+
+    @property
+    def radiation(self) -> str:
+        """How the waves that the hull makes act on it."""
+        return self.settings.radiation
 
     @property
     def current_ned(self) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.physics.actuators.build import ACTUATIONS
 from dq_marine.physics.current.build import Current, CurrentLike, current_of, plain
 from dq_marine.physics.hydrostatics.build import checked_hydrostatics
+from dq_marine.physics.radiation.build import checked_radiation
 from dq_marine.physics.term import ForceTerm, checked_forces
 from dq_marine.physics.weather.choice import plain_weather, weather_of
 from dq_marine.randomisation import Randomisation
@@ -46,6 +47,7 @@ class SettingsKeywords(TypedDict, total=False):
     gravity: float | None
     actuation: str
     hydrostatics: str
+    radiation: str
     scheme: str
     order: int
     kick: str
@@ -76,6 +78,8 @@ class Settings:
         hydrostatics: "linear": the restoring force of a floating vessel's waterplane for small motions, and weight and
             buoyancy of any other vehicle; or "hull": the buoyancy of the boxes of its hull at any depth and
             attitude, so that it may capsize, dive or leave the water.
+        radiation: how the waves that a hull makes act on it: "constant", by constant added mass and damping; or
+            "memory", by those of all frequencies that its file has, for small speeds. See `dq_marine.Scene`.
         scheme: "midpoint"; "paper" for that of Xu and Halse; "galerkin" for the variational integrators whose orders
             above 2 need no substeps; or "gauss" for collocation on the momentum, exact in momentum and energy but not
             variational.
@@ -102,6 +106,7 @@ class Settings:
     gravity: float | None = None
     actuation: str = "wrench"
     hydrostatics: str = "linear"
+    radiation: str = "constant"
     scheme: str = "midpoint"
     order: int = 2
     kick: str = "l_stable"
@@ -138,6 +143,7 @@ class Settings:
         one_of("kick", self.kick, KICKS)
         one_of("actuation", self.actuation, ACTUATIONS)
         checked_hydrostatics(self.hydrostatics, self.flown)
+        checked_radiation(self.radiation, self.flown)
 
     def _given_current(self, randomisation: Randomisation | None) -> Any:
         if self.current is not None:

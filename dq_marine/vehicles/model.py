@@ -7,6 +7,7 @@ Craft Hydrodynamics and Motion Control.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
@@ -25,6 +26,7 @@ from dq_marine.physics.fields import (
     Matrix6,
     NonNegative6,
     Positive,
+    Share6,
     Table,
     Vector3,
     Vector6,
@@ -76,12 +78,15 @@ class Damping(Table):
         quadratic: coefficients of |nu_i| nu_i [N s^2/m^2, N m s^2].
         couplings: forces by other velocities and speeds: drag that couples axes, lift.
         blended: linear damping at rest that gives way to quadratic, or to none, under way.
+        wave_share: how much of each number on the diagonal of `linear` stands for the waves that the hull makes, from 0
+            to 1; None where it is not known. Radiation memory, see `dq_marine.Scene`, takes its place.
     """
 
     linear: Matrix6
     quadratic: NonNegative6 = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     couplings: tuple[DampingCoupling, ...] = ()
     blended: tuple[BlendedDamping, ...] = ()
+    wave_share: Share6 | None = None
 
 
 class Limits(Table):
@@ -136,7 +141,8 @@ class Vehicle(Table):
         hydrostatics: of a vessel that floats; None for one that is under water altogether.
         hull: boxes that displace water at any depth and attitude; needed for `Scene(hydrostatics="hull")` alone.
         payloads: weights that act besides.
-        radiation: added mass and damping by frequency, for the forces of seas; a file names a CSV file beside it.
+        radiation: added mass and damping by frequency, for the forces of seas and for radiation memory; a file names a
+            CSV file beside it.
         validity: the motions and seas that the numbers hold for; None where it is not known.
         gravity: g [m/s^2], for weight and buoyancy, and for the lengths of waves; a stiffness in N/m holds for it.
     """
@@ -163,6 +169,22 @@ class Vehicle(Table):
     radiation: RadiationTable | None = None
     validity: Validity | None = None
     gravity: float = GRAVITY
+
+    @model_validator(mode="before")
+    @classmethod
+    def _complete(cls, content: Any) -> Any:
+        """Give a table of radiation the vehicle's own added mass at infinite frequency, where it has none."""
+        if (
+            not isinstance(content, Mapping)
+            or content.get("radiation") is None
+            or "added_mass" not in content
+        ):
+            return content
+        table = content["radiation"]
+        given = dict(table) if isinstance(table, RadiationTable | Mapping) else {}
+        if not given or given.get("infinite") is not None:
+            return content
+        return {**content, "radiation": {**given, "infinite": content["added_mass"]}}
 
     @model_validator(mode="after")
     def _plausible(self) -> Self:
@@ -252,6 +274,15 @@ class Vehicle(Table):
     def linear_damping(self) -> NDArray[np.float64]:
         """Linear damping matrix, shape (6, 6)."""
         return np.array(self.damping.linear)
+
+    @property
+    def linear_damping_without_waves(self) -> NDArray[np.float64]:
+        """Linear damping matrix without the part that stands for the waves that the hull makes, shape (6, 6).
+
+        Couplings go in proportion, so that what is left takes energy.
+        """
+        left = np.sqrt(1.0 - np.array(self.damping.wave_share or (0.0,) * 6))
+        return np.asarray(left[:, None] * self.linear_damping * left)
 
     @property
     def damping_at_rest(self) -> NDArray[np.float64]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from dq_marine.backend.packing import pack, unpack
 from dq_marine.checks import finite_array, finite_number, shown, whole_number
 from dq_marine.errors import InvalidInputError
-from dq_marine.integrator.body import AT_REST, BodyState
+from dq_marine.integrator.body import AT_REST, BODY_NUMBERS, BodyState
 from dq_marine.integrator.step import StepParameters, in_water
 from dq_marine.simulation.states import check_size, check_states
 from dq_marine.task.start import CLOCK_SPAN
@@ -28,7 +28,7 @@ class Episode:
     Attributes:
         parameters: of the step, packed.
         episode_parameters: `task.episode.EpisodeParameters`, packed.
-        state: pose and momentum, shape (14,).
+        state: pose, momentum and fluid memory, shape (14 + m,).
         memory: the task's memory, packed.
         action: of the last control period as compiled code takes it, normalised: of six axes, or of all channels.
         observation: at its end.
@@ -52,7 +52,7 @@ class Episode:
     @property
     def body(self) -> BodyState:
         """Pose and momentum as pure functions have them."""
-        return unpack(AT_REST, self.state)  # type: ignore[no-any-return]
+        return unpack(AT_REST, self.state[: BODY_NUMBERS - 1])  # type: ignore[no-any-return]
 
     @property
     def current_ned(self) -> NDArray[np.float64]:

@@ -24,7 +24,6 @@ from dq_marine.backend.simd.packing import (
 from dq_marine.backend.simd.period import PeriodArrays, PeriodLayout
 from dq_marine.envs.core.episode import Episode
 from dq_marine.envs.core.vehicle_pool import VEHICLE_FIELDS
-from dq_marine.integrator.body import AT_REST
 from dq_marine.task.episode import EpisodeParameters
 
 if TYPE_CHECKING:
@@ -84,7 +83,7 @@ class LaneMemory:
             lanes,
             packing_of(parameters[0], lanes, lambda path: len(path) == 1 and path[0] not in own_parameters),
             packing_of(episodes[0], lanes, self._is_shared_in_episode),
-            packing_of(AT_REST, lanes, lambda path: False),
+            packing_of(first.scene.composition.at_rest, lanes, lambda path: False),
             packing_of(first.blank_memory, lanes, lambda path: False),
             packing_of(OUTCOME, lanes, lambda path: False),
             pool.layout,

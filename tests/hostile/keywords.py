@@ -57,6 +57,7 @@ SCENE: dict[str, Callable[[Rng], Any]] = {
     "order": one_of(2, 4, 6, 8),
     "kick": one_of("l_stable", "implicit_node"),
     "hydrostatics": one_of("linear", "hull"),
+    "radiation": one_of("constant", "memory"),
     "weather": one_of([], [JONSWAP], [{"type": "wind", "speed": 5.0, "direction_from": 1.0}]),
     "forces": constant([]),
     "actuation": one_of("wrench", "thrusters"),

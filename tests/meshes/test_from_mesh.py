@@ -9,13 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.bodies import PlainBody
 from support.solids import box, ellipsoid, write_ascii_stl, write_stl
 from typer.testing import CliRunner
 
+from dq_marine import Scene
 from dq_marine.cli.main import app
 from dq_marine.errors import InvalidInputError, MissingDependencyError
 from dq_marine.meshes import Choices, vehicle_from_mesh
 from dq_marine.meshes import potential_flow as solver
+from dq_marine.physics.radiation.build import radiation_model
 from dq_marine.vehicles import Vehicle, load_vehicle
 
 WITHOUT_SOLVER = "needs the extra `bem`"
@@ -106,6 +109,27 @@ def test_radiation_goes_beside_the_file(tmp_path: Path) -> None:
         assert (np.linalg.eigvalsh(matrices) > -0.02 * np.trace(matrices, axis1=1, axis2=2)[:, None]).all()
     with pytest.raises(InvalidInputError, match="exists; choose another name, or replace it with --force"):
         vehicle_from_mesh(mesh, file, choices)
+
+
+@pytest.mark.slow
+def test_a_barge_from_a_mesh_remembers_its_waves(tmp_path: Path) -> None:
+    """Its file says what of its damping the memory replaces, and the model reproduces the panels' table."""
+    pytest.importorskip("capytaine", reason=WITHOUT_SOLVER)
+    mesh, file = write_stl(tmp_path / "barge.stl", box(10.0, 4.0, 2.0)), tmp_path / "barge.toml"
+    vehicle_from_mesh(mesh, file, Choices(draft=1.0, panels=800, frequencies=10))
+    vehicle = load_vehicle(file)
+    assert vehicle.damping.wave_share is not None
+    assert (np.array(vehicle.damping.wave_share)[2:5] > 0.0).all()
+    for quality in radiation_model(vehicle).quality.values():
+        assert quality.damping < 0.15
+        assert quality.added_mass < 0.03
+    scene = Scene(vehicle, step=0.05, radiation="memory")
+    body = PlainBody(scene.composition, scene.parameters_at, scene.step)
+    body.reset(velocity_body=[0.0, 0.0, 0.05, 0.02, 0.02, 0.0])
+    before = np.abs(body.velocity_body[2:5])
+    body.step(steps=300)
+    assert (np.abs(body.velocity_body[2:5]) < 0.2 * before).all()
+    assert np.abs(body.fluid_memory).max() > 0.0
 
 
 CUBE = box(1.0, 1.0, 1.0)

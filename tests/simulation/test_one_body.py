@@ -149,7 +149,7 @@ def test_what_newton_accepts_is_on_the_branch_from_rest(seed, log_size, scheme):
     body = make_body(random_inertia(rng), 0.1)
     velocity = rng.normal(size=6)
     body.reset(velocity_body=velocity * 10.0**log_size / np.linalg.norm(velocity))
-    inertia, (pose, momentum) = body.parameters.inertia, body.state
+    inertia, (pose, momentum, _) = body.parameters.inertia, body.state
     with np.errstate(all="ignore"):  # NumPy's doubles are infinite where compiled code's are; Python's raise
         doubles = Spatial(*(tuple(np.array(part)) for part in momentum))
         moved, _, report = make_drift(scheme)(inertia, 0.1, pose, doubles)

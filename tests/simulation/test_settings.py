@@ -24,6 +24,7 @@ WRONG = {
     "gravity": (-1.0, "gravity = -1"),
     "actuation": ("sails", "actuation = 'sails' is unknown; give one of"),
     "hydrostatics": ("wet", "hydrostatics = 'wet'"),
+    "radiation": ("wet", "radiation = 'wet'"),
     "scheme": ("euler", "scheme = 'euler' is unknown; give one of"),
     "order": (3, "order = 3 is unknown; give one of"),
     "kick": ("soft", "kick = 'soft' is unknown; give one of"),

@@ -6,7 +6,6 @@ import numpy as np
 
 from dq_marine.algebra.spatial import from_fossen
 from dq_marine.backend.packing import pack, unpack
-from dq_marine.integrator.body import AT_REST
 from dq_marine.integrator.step import ACCEPTED, make_advance
 from dq_marine.physics.current.build import uniform_water
 from dq_marine.physics.damping.build import BlendTerm, DampingTerm, StripTerm
@@ -27,7 +26,13 @@ class PlainBody(OneBody):
 
         def advance_arrays(parameters, state, wrench, time, steps):
             force = from_fossen(tuple(wrench.tolist()))
-            outcome = advance(unpack(self.parameters, parameters), unpack(AT_REST, state), force, time, steps)
+            outcome = advance(
+                unpack(self.parameters, parameters),
+                unpack(self._composition.at_rest, state),
+                force,
+                time,
+                steps,
+            )
             if outcome.status == ACCEPTED:
                 state[:] = pack(outcome.state)
             return (

@@ -17,7 +17,7 @@ from dq_marine.backend.simd.packing import Packing, make_load_block, make_store_
 from dq_marine.backend.simd.rows import make_load_rows
 from dq_marine.backend.table_type import check_tables
 from dq_marine.checks import one_of
-from dq_marine.integrator.body import AT_REST
+from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.step import Composition, StepParameters, make_advance
 
 PRECISIONS = {"float64": types.float64, "float32": types.float32}
@@ -49,7 +49,7 @@ class LaneLayout:
     Attributes:
         lanes: the type of a number that each body has for itself.
         parameters: packing of the step's parameters.
-        state: packing of pose and momentum.
+        state: packing of pose, momentum and fluid memory.
         outcome: packing of (status, fallbacks, residual squared).
     """
 
@@ -59,8 +59,10 @@ class LaneLayout:
     outcome: Packing
 
 
-def lane_layout(parameters: StepParameters, differing: frozenset[str], lanes: Lanes) -> LaneLayout:
-    """Return the layout of bodies whose parameters differ in the given fields."""
+def lane_layout(
+    parameters: StepParameters, at_rest: BodyState, differing: frozenset[str], lanes: Lanes
+) -> LaneLayout:
+    """Return the layout of bodies whose parameters differ in the given fields, and whose state is like `at_rest`."""
 
     def is_shared(path: tuple[str | int, ...]) -> bool:
         return len(path) == 1 and path[0] not in differing
@@ -71,7 +73,7 @@ def lane_layout(parameters: StepParameters, differing: frozenset[str], lanes: La
     return LaneLayout(
         lanes,
         packing_of(parameters, lanes, is_shared),
-        packing_of(AT_REST, lanes, is_own),
+        packing_of(at_rest, lanes, is_own),
         packing_of((0.0, 0.0, 0.0), lanes, is_own),
     )
 

@@ -24,11 +24,13 @@ class RadiationTable(Table):
         frequencies: rising [rad/s].
         added_mass: a 6x6 matrix for each, in Fossen's order [kg, kg m, kg m^2].
         damping: the same [N s/m, N s, N m s].
+        infinite: added mass at infinite frequency; None for that of the vehicle.
     """
 
     frequencies: tuple[Positive, ...] = Field(min_length=1)
     added_mass: tuple[Matrix6, ...]
     damping: tuple[Matrix6, ...]
+    infinite: Matrix6 | None = None
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:

@@ -122,6 +122,6 @@ def make_landing(composition: Composition) -> Land:
             begun.fallbacks,
             begun.residual_squared,
         )
-        return arrival(state, arrived, point.momentum, progress)
+        return arrival(state, arrived, point.momentum, state.fluid_memory, progress)
 
     return land

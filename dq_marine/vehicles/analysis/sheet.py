@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 
 from dq_marine.checks import finite_number
+from dq_marine.errors import InvalidInputError
 from dq_marine.physics.abkowitz.build import own_axis_force
 from dq_marine.physics.hydrostatics.restoring import heave_period, natural_periods, restoring_frequencies
 from dq_marine.physics.manoeuvring.build import own_axis_drag
+from dq_marine.physics.radiation.build import radiation_model
 from dq_marine.vehicles.analysis.munk import munk_growth_rate
 from dq_marine.vehicles.coupling import asymmetry, largest_coupling, unit_free
 from dq_marine.vehicles.model import MOTIONS, Vehicle
@@ -54,6 +56,8 @@ class Sheet:
             Infinite where nothing grows.
         service_speed: that the propeller in a ship's polynomials holds [m/s]; None for vehicles without.
         validity: limits of the motions and seas that the file's numbers hold for, each for reading; empty if unknown.
+        radiation_memory: how well a model of the waves that the hull makes reproduces its table by frequency, for
+            reading, or why there is none; empty without a table.
     """
 
     name: str
@@ -77,6 +81,7 @@ class Sheet:
     translation_step: float
     service_speed: float | None = None
     validity: tuple[str, ...] = ()
+    radiation_memory: tuple[str, ...] = ()
 
     @property
     def largest_step(self) -> float:
@@ -127,7 +132,15 @@ def vehicle_sheet(vehicle: Vehicle, *, speed: float = 1.0) -> Sheet:
         translation_step=2.0 / growth if growth > 0.0 else math.inf,
         service_speed=None if vehicle.whole_ship is None else vehicle.whole_ship.service_speed,
         validity=() if vehicle.validity is None else vehicle.validity.limits(),
+        radiation_memory=() if vehicle.radiation is None else _radiation_memory(vehicle),
     )
+
+
+def _radiation_memory(vehicle: Vehicle) -> tuple[str, ...]:
+    try:
+        return radiation_model(vehicle).summary()
+    except InvalidInputError as error:
+        return (f"none: {error}",)
 
 
 def terminal_speed(vehicle: Vehicle, axis: int) -> float:
