@@ -15,7 +15,9 @@ class DampingAlgebra(NamedTuple):
     growth(damping, s, before, after) is s times what the diagonal of D gains between two twists;
     apply(D, chi) is D chi;
     add_scaled(m, s, D) is m + s D for a 6x6 m;
-    sandwich(D, m) is D m D.
+    sandwich(D, m) is D m D;
+    diagonal(D) is the diagonal of D;
+    corners(damping) are the c of the forces -c |chi_k| chi_k, one for each axis.
     """
 
     at: Callable[..., Any]
@@ -24,3 +26,5 @@ class DampingAlgebra(NamedTuple):
     apply: Callable[..., Any]
     add_scaled: Callable[..., Any]
     sandwich: Callable[..., Any]
+    diagonal: Callable[..., Spatial]
+    corners: Callable[..., Spatial]

@@ -51,7 +51,7 @@ def test_the_drag_is_the_tensors_and_the_strips(seed):
     rng = np.random.default_rng(seed)
     term, drag = random_term(rng)
     nu = rng.normal(size=6)
-    got = term._algebra.apply(term._algebra.at(term.matrices, spatial(nu)), spatial(nu))
+    got = term.algebra.apply(term.algebra.at(term.matrices, spatial(nu)), spatial(nu))
     assert np.allclose(to_fossen(got), drag(nu), rtol=0, atol=1e-11)
 
 
@@ -70,7 +70,7 @@ def test_the_slope_is_the_exact_derivative(seed):
     width = 1e-3
     steps = width * np.eye(6)
     differences = np.column_stack([(drag(nu + step) - drag(nu - step)) / (2.0 * width) for step in steps])
-    slope = array(term._algebra.slope(term.matrices, spatial(nu)))
+    slope = array(term.algebra.slope(term.matrices, spatial(nu)))
     assume(nearest_kink(term, nu) > width)
     blended = np.ix_([0, 5], [0])
     assert np.allclose(slope[blended], differences[blended], rtol=0, atol=1e-4)
@@ -97,7 +97,7 @@ def test_strips_only_take_energy(seed, nu):
         ("heave", (rng.uniform(), *rng.normal(size=2), 3)),
     ]
     term = make_damping(np.eye(6), np.zeros((6, 6)), np.zeros(6), strips=rows)
-    matrix = array(term._algebra.at(term.matrices, spatial(np.array(nu))))
+    matrix = array(term.algebra.at(term.matrices, spatial(np.array(nu))))
     assert np.array_equal(matrix, matrix.T)
     assert np.linalg.eigvalsh(matrix).min() >= -1e-12 * max(1.0, np.abs(matrix).max())
 
@@ -125,7 +125,7 @@ def test_unsymmetric_systems_are_solved(seed):
     rng = np.random.default_rng(seed)
     term, _ = random_term(rng)
     m, nu, load = random_inertia(rng), rng.normal(size=6), rng.normal(size=6)
-    d = term._algebra.at(term.matrices, spatial(nu))
+    d = term.algebra.at(term.matrices, spatial(nu))
     system = matrix6_add_scaled(matrix6(angular_first(m)), 0.05, d)
     exact = np.linalg.solve(m + 0.05 * array(d), load)
     assert np.allclose(to_fossen(matrix6_solve(system, spatial(load))), exact, rtol=1e-9, atol=1e-9)

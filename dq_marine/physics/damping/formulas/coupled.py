@@ -22,7 +22,13 @@ from typing import Any, NamedTuple, TypeAlias
 from dq_marine.algebra.matrix3 import Matrix3
 from dq_marine.algebra.nesting import folded
 from dq_marine.algebra.selection import select
-from dq_marine.algebra.spatial import Matrix6, Spatial, matrix6_add_scaled, matrix6_transform
+from dq_marine.algebra.spatial import (
+    Matrix6,
+    Spatial,
+    matrix6_add_scaled,
+    matrix6_diagonal,
+    matrix6_transform,
+)
 from dq_marine.integrator.damping import DampingAlgebra
 from dq_marine.physics.damping.formulas.blended import (
     Blend,
@@ -237,6 +243,9 @@ def coupled_algebra(structure: DampingStructure) -> DampingAlgebra:
             (s * (d[0] - b[0]), s * (d[4] - b[4]), s * (d[8] - b[8])),
         )
 
+    def coupled_corners(damping: CoupledDamping) -> Spatial:
+        return damping.own.quadratic
+
     return DampingAlgebra(
         at=coupled_at,
         slope=coupled_slope,
@@ -244,4 +253,6 @@ def coupled_algebra(structure: DampingStructure) -> DampingAlgebra:
         apply=matrix6_transform,
         add_scaled=matrix6_add_scaled,
         sandwich=full_sandwich,
+        diagonal=matrix6_diagonal,
+        corners=coupled_corners,
     )

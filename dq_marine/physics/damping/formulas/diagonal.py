@@ -14,6 +14,7 @@ from dq_marine.algebra.spatial import (
     Spatial,
     matrix6_add_diagonal,
     matrix6_add_scaled,
+    matrix6_diagonal,
     matrix6_multiply,
     matrix6_transform,
     spatial_absolute,
@@ -87,6 +88,16 @@ def full_sandwich(d: Matrix6, m: Matrix6) -> Matrix6:
     return matrix6_multiply(d, matrix6_multiply(m, d))
 
 
+def diagonal_diagonal(d: Spatial) -> Spatial:
+    """Return the diagonal, which is all that there is."""
+    return d
+
+
+def own_axis_corners(damping: DiagonalDamping | FullDamping) -> Spatial:
+    """Return the quadratic coefficients."""
+    return damping.quadratic
+
+
 DIAGONAL = DampingAlgebra(
     at=diagonal_at,
     slope=diagonal_slope,
@@ -94,6 +105,8 @@ DIAGONAL = DampingAlgebra(
     apply=spatial_multiply_elementwise,
     add_scaled=diagonal_add_scaled,
     sandwich=diagonal_sandwich,
+    diagonal=diagonal_diagonal,
+    corners=own_axis_corners,
 )
 FULL = DampingAlgebra(
     at=full_at,
@@ -102,4 +115,6 @@ FULL = DampingAlgebra(
     apply=matrix6_transform,
     add_scaled=matrix6_add_scaled,
     sandwich=full_sandwich,
+    diagonal=matrix6_diagonal,
+    corners=own_axis_corners,
 )
