@@ -20,10 +20,11 @@ from dq_marine.algebra.dual_quaternion import (
     pose_from_parts,
     pose_position,
 )
+from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import smallest_normal, spread
 from dq_marine.algebra.spatial import Spatial, spatial_scale
 from dq_marine.algebra.stages import each_stage, stage_constants, stage_sum, stages_apart
-from dq_marine.algebra.vector3 import add
+from dq_marine.algebra.vector3 import Vector3, add
 from dq_marine.integrator.collocation import Collocation, radau
 from dq_marine.integrator.corner import Corners, make_corners, make_no_corners
 from dq_marine.integrator.damping import DampingAlgebra
@@ -32,6 +33,7 @@ from dq_marine.integrator.fallback import make_advance_with_fallback
 from dq_marine.integrator.forced_stages import Place, Surroundings, make_evaluate, multiplied
 from dq_marine.integrator.gauss_stages import squared_length, weighted_square
 from dq_marine.integrator.increment import unit
+from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 from dq_marine.integrator.radau_sweeps import make_solve
 from dq_marine.integrator.staged import Step
 from dq_marine.integrator.step import Advance, Composition, StepParameters
@@ -45,6 +47,11 @@ class DampedTiming(NamedTuple):
     h: float
     damping: Any
     fallback: Any
+
+
+def way_rate(inertia: Inertia, place: Place) -> Vector3:
+    """Return h times the velocity in world axes (G8)."""
+    return rotate(place.attitude, twist_from_momentum(inertia, place.momentum).linear)
 
 
 def make_damped_step(
@@ -74,8 +81,10 @@ def make_damped_step(
         pushed = stage_sum(weights, each_stage(nodes, weighted_square, (length_squared, begun.wrench)))
         size = weighted_square(length_squared, start.momentum) + pushed + smallest_normal(like)
         found, report = solve(around, parameters.timing.damping, start, begun, size)
+        # The way is computed here: where no force asks for the position, the sweeps go without it.
+        way = stage_sum(weights, each_stage(nodes, way_rate, (parameters.inertia, found)))
         _, _, _, end = stages_apart(nodes, found)
-        after = pose_from_parts(unit(end.attitude), add(position, end.way))
+        after = pose_from_parts(unit(end.attitude), add(position, way))
         after = carry(parameters.water, time, h, after)
         return after, spatial_scale(1.0 / h, end.momentum), DriftReport(report, spread(True, like))
 

@@ -19,7 +19,6 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.frames import momentum_bracket_slope
-from dq_marine.algebra.quaternion import Quaternion, quaternion_dot
 from dq_marine.algebra.selection import by_precision, negation, select, some, spread
 from dq_marine.algebra.spatial import (
     Matrix6,
@@ -52,10 +51,10 @@ MAX_SWEEPS = 40
 TELLING = 3  # the sweep after which the stages tell how exact the method is; tests begin there
 LARGEST_TELLTALE = 0.01  # of the size, squared
 OF_THE_ERROR = 0.01  # of the square of what the highest power of the stages' polynomial is
-SLOW = 0.06  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
+SLOW = 0.4  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
 SLOWEST = 0.5  # the same: sweeps that shrink it less are not done
 HOPELESS = 1e12  # of the size, squared: sweeps that change more diverge
-STIFF = 1.0  # h times damping, over inertia, from which the first sweep has a matrix
+STIFF = 5.0  # h times damping, over inertia, from which the first sweep has a matrix
 CORNER_SWEEPS = 16  # that follow the corners; sweeps that have not converged by then go on without
 
 Solve: TypeAlias = Callable[[Surroundings, Spatial, Place, ForcedStage, float], tuple[Place, SolverReport]]
@@ -82,12 +81,6 @@ def kept(active: bool, new: Any, old: Any) -> Any:
 def residual(reached: Spatial, corner: Spatial, momentum: Spatial) -> Spatial:
     """Return (RI2)."""
     return spatial_subtract(spatial_add(reached, corner), momentum)
-
-
-def attitude_change(new: Quaternion, old: Quaternion) -> float:
-    """Return the square of a change of attitude."""
-    d = (new[0] - old[0], new[1] - old[1], new[2] - old[2], new[3] - old[3])
-    return quaternion_dot(d, d)
 
 
 def is_stiff(h: float, inertia: Matrix6, diagonal: Spatial) -> bool:
@@ -168,9 +161,7 @@ def make_solve(
                 change = each_stage(weights, momentum_from_twist, (inertia, stage_product(together, parted)))
                 step = each_stage(weights, kept, (implicit, change, step))
             moved = Place(each_stage(weights, spatial_add, (y.momentum, step)), reached.attitude, reached.way)
-            turned = each_stage(weights, attitude_change, (moved.attitude, y.attitude))
-            pushed = each_stage(weights, weighted_square, (around.length_squared, step))
-            new = stage_sum(ones, pushed) + size * stage_sum(ones, turned)
+            new = stage_sum(ones, each_stage(weights, weighted_square, (around.length_squared, step)))
             before, last = select(active, last, before), select(active, new, last)
             y = each_stage(weights, kept, (active, moved, y))
             count += 1
@@ -191,9 +182,10 @@ def make_solve(
             else:
                 renewed = negation(spread(True, like))
             now = each_stage(weights, evaluate, (around, y))
-            corner = no_corners(coefficient, at_start, now.twist)
-            if sweep < CORNER_SWEEPS:
+            if sweep % 2 == 0:
                 corner = corners(coefficient, at_start, now.twist)
+            if sweep > CORNER_SWEEPS:
+                corner = no_corners(coefficient, at_start, now.twist)
         return y, SolverReport(last / size, converged, count)
 
     return solve
