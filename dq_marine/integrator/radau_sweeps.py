@@ -49,9 +49,9 @@ from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE
 
 MAX_SWEEPS = 40
 TELLING = 3  # the sweep after which the stages tell how exact the method is; tests begin there
-LARGEST_TELLTALE = 0.01  # of the size, squared
-OF_THE_ERROR = 0.01  # of the square of what the highest power of the stages' polynomial is
-SLOW = 0.4  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
+LARGEST_TELLTALE = 0.003  # of the size, squared
+OF_THE_ERROR = 0.01  # of the square of the highest power in the rates' polynomial
+SLOW = 0.25  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
 SLOWEST = 0.5  # the same: sweeps that shrink it less are not done
 HOPELESS = 1e12  # of the size, squared: sweeps that change more diverge
 STIFF = 5.0  # h times damping, over inertia, from which the first sweep has a matrix
@@ -166,7 +166,7 @@ def make_solve(
             y = each_stage(weights, kept, (active, moved, y))
             count += 1
             if sweep == TELLING:
-                top = weighted_square(around.length_squared, stage_sum(highest, y.momentum))
+                top = weighted_square(around.length_squared, stage_sum(highest, now.rate.momentum))
                 top = min(top, LARGEST_TELLTALE * size)
                 tolerance = max(tolerance, OF_THE_ERROR**2 * (top * top / size))
             if sweep >= TELLING:
