@@ -49,7 +49,7 @@ from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE
 
 MAX_SWEEPS = 40
 TELLING = 3  # the sweep after which the stages tell how exact the method is; tests begin there
-LARGEST_TELLTALE = 0.003  # of the size, squared
+LARGEST_TELLTALE = 0.006  # of the size, squared
 OF_THE_ERROR = 0.01  # of the square of the highest power in the rates' polynomial
 SLOW = 0.25  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
 SLOWEST = 0.5  # the same: sweeps that shrink it less are not done
@@ -157,7 +157,9 @@ def make_solve(
                 fresh = inverses(around, damping, y, now.twist)
                 inverse = each_stage(weights, kept, (renewed, fresh, inverse))
             if some(implicit):
-                parted = each_stage(weights, matrix6_transform, (inverse, stage_product(apart, step)))  # (RI3)
+                parted = each_stage(
+                    weights, matrix6_transform, (inverse, stage_product(apart, step))
+                )  # (RI3)
                 change = each_stage(weights, momentum_from_twist, (inertia, stage_product(together, parted)))
                 step = each_stage(weights, kept, (implicit, change, step))
             moved = Place(each_stage(weights, spatial_add, (y.momentum, step)), reached.attitude, reached.way)
