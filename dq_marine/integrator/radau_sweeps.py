@@ -128,7 +128,7 @@ def make_solve(
         gyration = momentum_bracket_slope(
             inertia, stage_sum(mean, own), spatial_scale(1.0 / h, stage_sum(mean, places.momentum))
         )
-        steps = each_stage(weights, multiplied, (h, stage_constants(diagonal, h)))
+        steps = each_stage(weights, multiplied, (h, stage_constants(diagonal, around.size)))
         return each_stage(weights, newton_inverse, (inertia, gyration, slope, steps))
 
     def solve(

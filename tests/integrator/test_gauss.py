@@ -1,4 +1,4 @@
-"""Gauss's collocation on the momentum: order 8, invariants, any inertia, hard steps; what is refused. Damping: test_radau."""
+"""Gauss's collocation on the momentum: order 8, invariants, any inertia, hard steps; what is refused."""
 
 import numpy as np
 import pytest
