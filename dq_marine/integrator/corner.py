@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from dq_marine.algebra.selection import select, some
 from dq_marine.algebra.spatial import Spatial
@@ -60,7 +60,7 @@ def make_corners(method: Collocation) -> Corners:
     nothing = (0.0,) * len(nodes)
     constant, linear, square, cubic = coefficients(method)
 
-    def corner(c: float, before: float, p: float) -> float:
+    def corner(c: float, before: float, p: Any) -> Any:
         """Return C of one axis, from its velocity at the start and at the stages."""
         found = stage_constants(nothing, before)
         p1, p2, p3, p4 = stages_apart(nodes, p)

@@ -1,106 +1,60 @@
 """The stages of a step with damping: sweeps that become Newton's method where damping makes them slow.
 
-A sweep takes the rates K at the stages to the momentum y at the stages. Where damping is weak it does so as it is,
-y_i <- c + sum_j A_ij K_j + C_i; where it is not, by one iteration of Newton's method, with the slope S of damping and
-that of Kirchhoff's equations, G, both from the mean over the stages (docs/theory.md, eqs. RI1-RI4):
+A sweep takes the rates K at the stages to the momentum y at the stages. What is left over of (RI1) is
 
     r_i = c + sum_j A_ij K_j + C_i - y_i                                                             (RI2)
-    (M + h d_i (S - G)) e_i = (Q^-1 r)_i                                                             (RI3)
-    y_i <- y_i + M (Q e)_i                                                                           (RI4)
 
-with L = Q diag(d) Q^-1 in place of A (see `integrator.splitting`). The matrix is made where sweeps contract slowly,
-and made anew where they go on to do so.
+Where damping is weak it changes y as it is, y_i <- y_i + r_i; where it is not, by an iteration of Newton's method
+(`integrator.stage_newton`), whose matrix is made where sweeps contract slowly, and anew where they go on to do so.
+Attitudes and ways follow from the rates. See docs/theory.md, "Radau's collocation, for damping".
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
-from dq_marine.algebra.frames import momentum_bracket_slope
 from dq_marine.algebra.selection import by_precision, negation, select, some, spread
-from dq_marine.algebra.spatial import (
-    Matrix6,
-    Spatial,
-    matrix6_add_scaled,
-    matrix6_invert,
-    matrix6_transform,
-    spatial_add,
-    spatial_scale,
-    spatial_subtract,
-)
-from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum
+from dq_marine.algebra.spatial import Spatial, spatial_add, spatial_subtract
+from dq_marine.algebra.stages import each_stage, stage_product, stage_sum
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.corner import Corners, coefficients, make_no_corners
 from dq_marine.integrator.damping import DampingAlgebra
 from dq_marine.integrator.drift_report import SolverReport
-from dq_marine.integrator.forced_stages import (
-    ForcedStage,
-    Place,
-    Surroundings,
-    follow,
-    multiplied,
-)
+from dq_marine.integrator.forced_stages import ForcedStage, Place, Surroundings, follow
 from dq_marine.integrator.gauss_stages import weighted_square
-from dq_marine.integrator.inertia import momentum_from_twist, twist_from_momentum
-from dq_marine.integrator.splitting import splitting
-from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE
+from dq_marine.integrator.inertia import twist_from_momentum
+from dq_marine.integrator.stage_newton import make_stage_newton
+from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE, kept, same
 
 MAX_SWEEPS = 40
-TELLING = 3  # the sweep after which the stages tell how exact the method is; tests begin there
-LARGEST_TELLTALE = 0.006  # of the size, squared
-OF_THE_ERROR = 0.01  # of the square of the highest power in the rates' polynomial
+TELLING = 3  # the sweep whose rates tell how exact the method is; tests begin there
+LARGEST_TELLTALE = 0.015  # of the size, squared: larger rates do not tell the error
+OF_THE_ERROR = 0.004  # of the square of the highest power in the rates' polynomial
 SLOW = 0.25  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
 SLOWEST = 0.5  # the same: sweeps that shrink it less are not done
 HOPELESS = 1e12  # of the size, squared: sweeps that change more diverge
-STIFF = 5.0  # h times damping, over inertia, from which the first sweep has a matrix
-CORNER_SWEEPS = 16  # that follow the corners; sweeps that have not converged by then go on without
+CORNER_SWEEPS = 16  # that follow corners; where zeros of velocities come and go for longer, sweeps go on without
 
-Solve: TypeAlias = Callable[[Surroundings, Spatial, Place, ForcedStage, float], tuple[Place, SolverReport]]
-
-
-class Swept(NamedTuple):
-    """Stages while they are solved: places, C (RI5), and the inverse matrices of (RI3)."""
-
-    place: Place
-    corner: Spatial
-    inverse: Matrix6
+Solve: TypeAlias = Callable[
+    [Surroundings, Any, Place, ForcedStage, float],
+    tuple[Place, SolverReport],
+]
 
 
-def same(place: Place) -> Place:
-    """Return the place: at all stages, where `each_stage` has it."""
-    return place
-
-
-def kept(active: bool, new: Any, old: Any) -> Any:
-    """Return what is new where it is wanted."""
-    return select(active, new, old)
-
-
-def residual(reached: Spatial, corner: Spatial, momentum: Spatial) -> Spatial:
+def left_over(reached: Spatial, corner: Spatial, momentum: Spatial) -> Spatial:
     """Return (RI2)."""
     return spatial_subtract(spatial_add(reached, corner), momentum)
-
-
-def is_stiff(h: float, inertia: Matrix6, diagonal: Spatial) -> bool:
-    """Whether h times damping, of which this is the diagonal, is as large as inertia on any axis."""
-    m, n = inertia.angular, inertia.linear
-    a, b = diagonal
-    return (
-        (h * a[0] > STIFF * m[0])
-        | (h * a[1] > STIFF * m[4])
-        | (h * a[2] > STIFF * m[8])
-        | (h * b[0] > STIFF * n[0])
-        | (h * b[1] > STIFF * n[4])
-        | (h * b[2] > STIFF * n[8])
-    )
 
 
 def make_solve(
     method: Collocation, evaluate: Callable[..., ForcedStage], algebra: DampingAlgebra, corners: Corners
 ) -> Solve:
     """Return (surroundings, damping, start, evaluation at the stages, size) -> (places at the stages, report).
+
+    A body that is done waits, unchanged, for those beside it. The report's `on_rest_branch` says whether the sweeps
+    converged.
 
     Args:
         method: Radau's, with four stages.
@@ -109,68 +63,47 @@ def make_solve(
         corners: the correction (RI5).
     """
     matrix, weights = method.matrix, method.weights
-    split = splitting(method)
-    together, apart, diagonal = split.together, split.apart, split.diagonal
-    highest = coefficients(method)[-1]
-    ones, mean = (1.0,) * len(weights), (1.0 / len(weights),) * len(weights)
-    no_corners = make_no_corners(method)
-    slope_of, add_slope = algebra.slope, algebra.add_scaled
-    diagonal_of, corners_of = algebra.diagonal, algebra.corners
+    highest, ones = coefficients(method)[-1], (1.0,) * len(method.weights)
+    newton, no_corners = make_stage_newton(method, algebra), make_no_corners(method)
+    is_stiff, inverses, newton_change = newton.wanted, newton.inverses, newton.change
+    corners_of = algebra.corners
 
-    def newton_inverse(inertia: Matrix6, gyration: Matrix6, slope: Any, h: float) -> Matrix6:
-        return matrix6_invert(add_slope(matrix6_add_scaled(inertia, -h, gyration), h, slope))
-
-    def inverses(around: Surroundings, damping: Any, places: Place, twists: Spatial) -> Matrix6:
-        """Return the inverses of the matrices in (RI3)."""
-        h, inertia = around.h, around.parameters.inertia.matrix
-        own = each_stage(weights, spatial_scale, (1.0 / h, twists))
-        slope = stage_sum(mean, each_stage(weights, slope_of, (damping, own)))
-        gyration = momentum_bracket_slope(
-            inertia, stage_sum(mean, own), spatial_scale(1.0 / h, stage_sum(mean, places.momentum))
-        )
-        steps = each_stage(weights, multiplied, (h, stage_constants(diagonal, around.size)))
-        return each_stage(weights, newton_inverse, (inertia, gyration, slope, steps))
+    def tolerated(length_squared: float, rates: Spatial, size: float) -> float:
+        """Return the square of a change that is less than the method errs."""
+        telltale = weighted_square(length_squared, stage_sum(highest, rates))
+        telltale = min(telltale, LARGEST_TELLTALE * size)
+        return OF_THE_ERROR**2 * (telltale * telltale / size)
 
     def solve(
         around: Surroundings, damping: Any, start: Place, begun: ForcedStage, size: float
     ) -> tuple[Place, SolverReport]:
-        inertia, h = around.parameters.inertia, around.h
-        like = size
-        at_start = twist_from_momentum(inertia, start.momentum)
-        coefficient = corners_of(damping)
-        slope = slope_of(damping, spatial_scale(1.0 / h, at_start))
-        implicit = is_stiff(h, inertia.matrix, diagonal_of(slope)) & spread(True, like)
-        renewed = implicit
-        y = each_stage(weights, same, (start,))
-        now = begun
-        corner = no_corners(coefficient, at_start, begun.twist)
-        inverse = each_stage(weights, kept, (implicit, inertia.inverse, inertia.inverse))
+        inertia, length_squared = around.parameters.inertia, around.length_squared
+        at_start, c = twist_from_momentum(inertia, start.momentum), corners_of(damping)
+        active = spread(True, size)
+        implicit = renewed = active & is_stiff(around, damping, at_start)
+        inverse = each_stage(weights, kept, (active, inertia.inverse, inertia.inverse))
+        corner = no_corners(c, at_start, begun.twist)
+        y, now = each_stage(weights, same, (start,)), begun
         tolerance = by_precision(size, ROUND_OFF**2, ROUND_OFF_SINGLE**2) * size
-        active = spread(True, like)
         converged = negation(active)
-        before = last = spread(math.inf, like)
+        before = last = spread(math.inf, size)
         count = 0
         for sweep in range(1, MAX_SWEEPS + 1):
             reached = each_stage(weights, follow, (start, stage_product(matrix, now.rate)))
-            step = each_stage(weights, residual, (reached.momentum, corner, y.momentum))  # (RI2)
+            change = each_stage(weights, left_over, (reached.momentum, corner, y.momentum))
             if some(renewed):
-                fresh = inverses(around, damping, y, now.twist)
+                fresh = inverses(around, damping, now.twist, y.momentum)
                 inverse = each_stage(weights, kept, (renewed, fresh, inverse))
             if some(implicit):
-                parted = each_stage(
-                    weights, matrix6_transform, (inverse, stage_product(apart, step))
-                )  # (RI3)
-                change = each_stage(weights, momentum_from_twist, (inertia, stage_product(together, parted)))
-                step = each_stage(weights, kept, (implicit, change, step))
-            moved = Place(each_stage(weights, spatial_add, (y.momentum, step)), reached.attitude, reached.way)
-            new = stage_sum(ones, each_stage(weights, weighted_square, (around.length_squared, step)))
-            before, last = select(active, last, before), select(active, new, last)
+                solved = newton_change(inertia, inverse, change)
+                change = each_stage(weights, kept, (implicit, solved, change))
+            moved = Place(each_stage(weights, spatial_add, (y.momentum, change)), reached.attitude, reached.way)
+            square = stage_sum(ones, each_stage(weights, weighted_square, (length_squared, change)))
+            before, last = select(active, last, before), select(active, square, last)
             y = each_stage(weights, kept, (active, moved, y))
             count += 1
             if sweep == TELLING:
-                top = weighted_square(around.length_squared, stage_sum(highest, now.rate.momentum))
-                top = min(top, LARGEST_TELLTALE * size)
-                tolerance = max(tolerance, OF_THE_ERROR**2 * (top * top / size))
+                tolerance = max(tolerance, tolerated(length_squared, now.rate.momentum, size))
             if sweep >= TELLING:
                 contracts = last < SLOWEST * before
                 done = (contracts & (last * last <= tolerance * before)) | (last <= tolerance)
@@ -178,16 +111,13 @@ def make_solve(
             active = active & negation(converged) & (last <= HOPELESS * size)
             if not some(active):
                 break
-            if sweep >= 2:
-                renewed = active & (last > SLOW * before)
-                implicit = implicit | renewed
-            else:
-                renewed = negation(spread(True, like))
+            renewed = active & (last > SLOW * before)  # after the first sweep `before` is infinite
+            implicit = implicit | renewed
             now = each_stage(weights, evaluate, (around, y))
             if sweep % 2 == 0:
-                corner = corners(coefficient, at_start, now.twist)
+                corner = corners(c, at_start, now.twist)
             if sweep > CORNER_SWEEPS:
-                corner = no_corners(coefficient, at_start, now.twist)
+                corner = no_corners(c, at_start, now.twist)
         return y, SolverReport(last / size, converged, count)
 
     return solve

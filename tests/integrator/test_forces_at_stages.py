@@ -79,4 +79,5 @@ def test_the_order_is_that_of_the_method_under_every_force(scheme, order, name):
     counts = COUNTS[order]
     *ends, exact = [end_of(vehicle, scheme, order, int(n), settings) for n in (*counts, 4 * counts[-1])]
     series = [np.abs(end - exact).max() for end in ends]
-    assert observed_order(1.0 / counts, series) == pytest.approx(order, abs=0.5), series
+    least = 6.5 if scheme == "gauss" else order - 0.5  # the vehicles have damping: Radau's method, of order 7
+    assert least < observed_order(1.0 / counts, series) < order + 0.5, series
