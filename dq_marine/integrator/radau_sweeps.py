@@ -30,12 +30,14 @@ from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE, kept, same
 
 MAX_SWEEPS = 40
 TELLING = 3  # the sweep whose rates tell how exact the method is; tests begin there
-LARGEST_TELLTALE = 0.015  # of the size, squared: larger rates do not tell the error
-OF_THE_ERROR = 0.004  # of the square of the highest power in the rates' polynomial
+LARGEST_TELLTALE = 0.2  # of the size, squared: larger rates do not tell the error
+OF_THE_ERROR = 0.0003  # of the square of the highest power in the rates' polynomial
 SLOW = 0.25  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
 SLOWEST = 0.5  # the same: sweeps that shrink it less are not done
 HOPELESS = 1e12  # of the size, squared: sweeps that change more diverge
-CORNER_SWEEPS = 16  # that follow corners; where zeros of velocities come and go for longer, sweeps go on without
+CORNER_SWEEPS = (
+    16  # that follow corners; where zeros of velocities come and go for longer, sweeps go on without
+)
 
 Solve: TypeAlias = Callable[
     [Surroundings, Any, Place, ForcedStage, float],
@@ -97,7 +99,9 @@ def make_solve(
             if some(implicit):
                 solved = newton_change(inertia, inverse, change)
                 change = each_stage(weights, kept, (implicit, solved, change))
-            moved = Place(each_stage(weights, spatial_add, (y.momentum, change)), reached.attitude, reached.way)
+            moved = Place(
+                each_stage(weights, spatial_add, (y.momentum, change)), reached.attitude, reached.way
+            )
             square = stage_sum(ones, each_stage(weights, weighted_square, (length_squared, change)))
             before, last = select(active, last, before), select(active, square, last)
             y = each_stage(weights, kept, (active, moved, y))

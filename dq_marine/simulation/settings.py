@@ -77,10 +77,10 @@ class Settings:
             buoyancy of any other vehicle; or "hull": the buoyancy of the boxes of its hull at any depth and
             attitude, so that it may capsize, dive or leave the water.
         scheme: "midpoint"; "paper" for that of Xu and Halse; "galerkin" for the variational integrators whose orders
-            above 2 need no substeps; or "gauss" for collocation on the momentum: without damping exact in momentum and
-            energy but not variational, with damping L-stable.
-        order: of the method: 2 or 4, and 6 or 8 where nothing takes energy, or with "galerkin"; 8 of "gauss", which with
-            damping is of order 7.
+            above 2 need no substeps; or "gauss" for collocation on the momentum: without damping exact in momentum
+            and energy but not variational, with damping L-stable.
+        order: of the method: 2 or 4, and 6 or 8 where nothing takes energy, or with "galerkin"; 8 of "gauss", which
+            is of order 7 with damping.
         kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
         control_period: time between actions [s].
         substeps: integrator steps in a control period.

@@ -13,6 +13,7 @@ from support.sweeps import sweep
 from dq_marine.algebra.frames import momentum_bracket, momentum_bracket_slope
 from dq_marine.algebra.spatial import Matrix6, Spatial, matrix6_transform
 from dq_marine.algebra.stages import Stages
+from dq_marine.integrator import radau_sweeps
 from dq_marine.integrator.collocation import radau
 from dq_marine.integrator.corner import make_corners
 from dq_marine.integrator.radau import make_radau_method
@@ -57,7 +58,7 @@ def test_newton_with_the_triangle_converges_at_any_stiffness(stages):
     assert np.diag(np.linalg.solve(lower, a)) == pytest.approx(np.ones(stages), abs=1e-14)
     for z in -np.geomspace(1e-3, 1e8, 100):
         shrinking = z * np.linalg.solve(np.eye(stages) - z * lower, a - lower)
-        assert np.abs(np.linalg.eigvals(shrinking)).max() < 0.5
+        assert np.abs(np.linalg.eigvals(shrinking)).max() < (0.19 if stages == 4 else 0.5)
 
 
 def test_the_slope_of_kirchhoffs_equations_is_their_derivative():
@@ -147,8 +148,8 @@ DAMPED = {
 
 
 @pytest.mark.parametrize("name", DAMPED)
-def test_order_seven(name):
-    """Velocities keep their signs."""
+def test_order_seven(name, monkeypatch):
+    """Velocities keep their signs. Sweeps that end early cost little: they are let go on to round-off beside."""
     rng = np.random.default_rng(7)
     case = dict(DAMPED[name])
     m = random_inertia(rng, 5.0)
@@ -157,15 +158,23 @@ def test_order_seven(name):
     q, velocity = random_quaternion(rng), 0.5 + 0.5 * rng.uniform(size=6)
     wrench = np.abs(rng.normal(size=6)) * 6.0
     reference = solve(m, np.zeros(3), q, velocity, 0.5, wrench=wrench, rtol=3e-14, **case)
-    counts, measured = np.array([4, 6, 8, 12]), []
-    for count in counts:
-        body = damped_body(m, 0.5 / count, **case)
-        body.reset(np.zeros(3), q, velocity)
-        body.step(wrench, int(count))
-        assert body.fallback_steps == 0
-        measured.append(errors(body, reference))
-    for kind, series in zip(("position", "attitude", "velocity"), np.array(measured).T, strict=True):
-        assert observed_order(0.5 / counts, series) > 6.3, f"{kind}: {series}"
+    counts, measured = np.array([4, 6, 8, 12]), {}
+    for early in (True, False):
+        if not early:
+            monkeypatch.setattr(radau_sweeps, "OF_THE_ERROR", 0.0)
+        series = []
+        for count in counts:
+            body = damped_body(m, 0.5 / count, **case)
+            body.reset(np.zeros(3), q, velocity)
+            body.step(wrench, int(count))
+            assert body.fallback_steps == 0
+            series.append(errors(body, reference))
+        measured[early] = np.array(series).T
+    for kind, series, early in zip(
+        ("position", "attitude", "velocity"), measured[False], measured[True], strict=True
+    ):
+        assert observed_order(0.5 / counts, series) == pytest.approx(7.0, abs=0.4), f"{kind}: {series}"
+        assert np.exp(np.mean(np.log(early / series))) < 5.0, f"{kind}: {early / series}"
 
 
 @pytest.mark.parametrize("seed", sweep([11, 12, 13], plain=[11]))

@@ -212,7 +212,7 @@ def test_with_stages_a_free_sphere_keeps_its_velocity_over_ground_in_shear(schem
 
 
 def test_stiff_damping_in_a_profile_is_solved_and_agrees_with_small_steps():
-    """h lambda is some 100: in the profile, the stages are where the body is, and so is its water."""
+    """With h lambda of some 100: in the profile, the stages are where the body is, and so is its water."""
     stiff = {"linear": 1e3 * np.eye(6), "current": profile_water(SLOPE)}
     rng = np.random.default_rng(4)
     m, begin, wrench = random_inertia(rng), start(rng), 1e3 * rng.normal(size=6)
