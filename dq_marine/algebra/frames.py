@@ -30,7 +30,13 @@ from dq_marine.algebra.dual_quaternion import (
     dual_transpose,
     pose_position,
 )
-from dq_marine.algebra.matrix3 import matrix_from_columns, matrix_multiply
+from dq_marine.algebra.matrix3 import (
+    cross_matrix,
+    matrix_add,
+    matrix_multiply,
+    matrix_scale,
+    matrix_subtract,
+)
 from dq_marine.algebra.quaternion import (
     quaternion_from_vector,
     quaternion_vector,
@@ -103,8 +109,7 @@ def adjoint_matrix(pose: DualQuaternion) -> Matrix6:
     An inertia M about the inner origin is Ad^T M Ad about the outer one, with Ad that of the pose's inverse.
     """
     rotation = rotation_matrix(pose.real)
-    x, y, z = pose_position(pose)
-    skew = matrix_from_columns((0.0, z, -y), (-z, 0.0, x), (y, -x, 0.0))
+    skew = cross_matrix(pose_position(pose))
     nothing = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return Matrix6(rotation, nothing, matrix_multiply(skew, rotation), rotation)
 
@@ -125,6 +130,25 @@ def momentum_bracket(twist: Spatial, momentum: Spatial) -> Spatial:
     return Spatial(
         add(cross(momentum.angular, twist.angular), cross(momentum.linear, twist.linear)),
         cross(momentum.linear, twist.angular),
+    )
+
+
+def momentum_bracket_slope(inertia: Matrix6, twist: Spatial, momentum: Spatial) -> Matrix6:
+    """Return the derivative of ad_chi^T M chi with respect to chi, where mu = M chi."""
+    turning, moving = cross_matrix(twist.angular), cross_matrix(twist.linear)
+    angular, linear = cross_matrix(momentum.angular), cross_matrix(momentum.linear)
+
+    first = matrix_add(
+        matrix_multiply(turning, inertia.angular), matrix_multiply(moving, inertia.linear_angular)
+    )
+    second = matrix_add(
+        matrix_multiply(turning, inertia.angular_linear), matrix_multiply(moving, inertia.linear)
+    )
+    return Matrix6(
+        matrix_subtract(angular, first),
+        matrix_subtract(linear, second),
+        matrix_subtract(linear, matrix_multiply(turning, inertia.linear_angular)),
+        matrix_scale(-1.0, matrix_multiply(turning, inertia.linear)),
     )
 
 

@@ -108,6 +108,11 @@ def matrix_from_columns(a: Vector3, b: Vector3, c: Vector3) -> Matrix3:
     return (a[0], b[0], c[0], a[1], b[1], c[1], a[2], b[2], c[2])
 
 
+def cross_matrix(a: Vector3) -> Matrix3:
+    """Return the matrix that takes b to a x b."""
+    return (0.0, -a[2], a[1], a[2], 0.0, -a[0], -a[1], a[0], 0.0)
+
+
 def adjugate(a: Matrix3) -> Matrix3:
     """Return the adjugate of a: adj(a) a = det(a) 1."""
     return (

@@ -131,6 +131,12 @@ def matrix6_add_scaled(a: Matrix6, s: float, b: Matrix6) -> Matrix6:
     )
 
 
+def matrix6_diagonal(m: Matrix6) -> Spatial:
+    """Return the diagonal of m."""
+    a, d = m.angular, m.linear
+    return Spatial((a[0], a[4], a[8]), (d[0], d[4], d[8]))
+
+
 def matrix6_add_diagonal(m: Matrix6, d: Spatial) -> Matrix6:
     """Return m + diag(d)."""
     return Matrix6(

@@ -1,8 +1,9 @@
-"""Gauss's collocation methods: nodes, weights and matrices, to the last bit of a double.
+"""Collocation methods of Gauss and of Radau: nodes, weights and matrices, to the last bit of a double.
 
-With s stages at the zeros c_i of the shifted Legendre polynomial of degree s, the method is of order 2s, symmetric, and
-keeps every quadratic invariant of an equation (Hairer, Lubich, Wanner 2006, Geometric Numerical Integration, II.1 and
-IV.2).
+With s stages at the zeros c_i of the shifted Legendre polynomial of degree s, Gauss's method is of order 2s, symmetric,
+and keeps every quadratic invariant of an equation (Hairer, Lubich, Wanner 2006, Geometric Numerical Integration, II.1
+and IV.2). Radau's, called IIA, has its last stage at the end of the step; it is of order 2s - 1 and L-stable (Hairer,
+Wanner 1996, Solving Ordinary Differential Equations II, IV.5).
 """
 
 from __future__ import annotations
@@ -28,17 +29,14 @@ class Collocation(NamedTuple):
         matrix: A_ij, the integral of the j-th of these polynomials from 0 to c_i.
         powers: V_kj, the k-th coefficient of the j-th of them as a polynomial in the time from the middle of the step,
             in half steps; halved, for rates that are a whole step's.
+        order: of convergence.
     """
 
     nodes: tuple[float, ...]
     weights: tuple[float, ...]
     matrix: tuple[tuple[float, ...], ...]
     powers: tuple[tuple[float, ...], ...]
-
-    @property
-    def order(self) -> int:
-        """Order of convergence."""
-        return 2 * len(self.nodes)
+    order: int
 
 
 @functools.cache
@@ -46,29 +44,59 @@ def gauss(stages: int) -> Collocation:
     """Return Gauss's method of so many stages."""
     with localcontext() as context:
         context.prec = DIGITS
-        # Zeros of Legendre's polynomial on [-1, 1]: where the stages stand, in half steps from the middle.
-        places = legendre_zeros(stages)
-        basis = [lagrange(places, j) for j in range(stages)]
-        half = Decimal(1) / 2
-        return Collocation(
-            nodes=tuple(float(half + half * x) for x in places),
-            weights=tuple(float(half * integral(p, Decimal(1))) for p in basis),
-            matrix=tuple(tuple(float(half * integral(p, x)) for p in basis) for x in places),
-            powers=tuple(tuple(float(half * p[k]) for p in basis) for k in range(stages)),
-        )
+        return collocation_at(zeros_in_the_step(legendre(stages)), 2 * stages)
 
 
-def legendre_zeros(degree: int) -> list[Decimal]:
-    """Return the zeros of Legendre's polynomial in [-1, 1], ascending, by Newton's method."""
-    before, polynomial = [Decimal(1)], [Decimal(0), Decimal(1)]
-    for n in range(1, degree):
+@functools.cache
+def radau(stages: int) -> Collocation:
+    """Return Radau's method IIA of so many stages."""
+    with localcontext() as context:
+        context.prec = DIGITS
+        # The difference of two Legendre polynomials has the end of the step among its zeros.
+        polynomial = [
+            a - b for a, b in zip(legendre(stages), [*legendre(stages - 1), Decimal(0)], strict=True)
+        ]
+        inner = divided(polynomial, Decimal(1))
+        return collocation_at([*zeros_in_the_step(inner), Decimal(1)], 2 * stages - 1)
+
+
+def collocation_at(places: Sequence[Decimal], order: int) -> Collocation:
+    """Return the method whose stages stand at some places, in half steps from the middle of the step."""
+    basis = [lagrange(places, j) for j in range(len(places))]
+    half = Decimal(1) / 2
+    return Collocation(
+        nodes=tuple(float(half + half * x) for x in places),
+        weights=tuple(float(half * integral(p, Decimal(1))) for p in basis),
+        matrix=tuple(tuple(float(half * integral(p, x)) for p in basis) for x in places),
+        powers=tuple(tuple(float(half * p[k]) for p in basis) for k in range(len(places))),
+        order=order,
+    )
+
+
+def legendre(degree: int) -> Polynomial:
+    """Return Legendre's polynomial."""
+    before, polynomial = [Decimal(0)], [Decimal(1)]
+    for n in range(degree):
         following = [(2 * n + 1) * c / (n + 1) for c in [Decimal(0), *polynomial]]
         for k, c in enumerate(before):
             following[k] -= n * c / (n + 1)
         before, polynomial = polynomial, following
+    return polynomial
+
+
+def divided(polynomial: Polynomial, zero: Decimal) -> Polynomial:
+    """Return a polynomial less one of its zeros."""
+    quotient: Polynomial = []
+    for coefficient in reversed(polynomial[1:]):
+        quotient.append(coefficient + zero * (quotient[-1] if quotient else 0))
+    return quotient[::-1]
+
+
+def zeros_in_the_step(polynomial: Polynomial) -> list[Decimal]:
+    """Return the zeros of a polynomial that all lie in [-1, 1], ascending, by Newton's method."""
     slope = [k * c for k, c in enumerate(polynomial)][1:]
     zeros: list[Decimal] = []
-    for _ in range(degree):
+    for _ in slope:
         x = Decimal(1)
         for _ in range(200):  # from outside all zeros, those that are known divided out
             height = value(polynomial, x)

@@ -15,7 +15,9 @@ class DampingAlgebra(NamedTuple):
     growth(damping, s, before, after) is s times what the diagonal of D gains between two twists;
     apply(D, chi) is D chi;
     add_scaled(m, s, D) is m + s D for a 6x6 m, and add_slope(m, s, S) the same for a slope S;
-    sandwich(D, m) is D m D.
+    sandwich(D, m) is D m D;
+    slope_diagonal(S) is the diagonal of a slope;
+    corners(damping) are the c of the forces -c |chi_k| chi_k, one for each axis.
     """
 
     at: Callable[..., Any]
@@ -25,3 +27,5 @@ class DampingAlgebra(NamedTuple):
     add_scaled: Callable[..., Any]
     add_slope: Callable[..., Any]
     sandwich: Callable[..., Any]
+    slope_diagonal: Callable[..., Spatial]
+    corners: Callable[..., Spatial]

@@ -15,24 +15,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import (
     DualQuaternion,
     dual_multiply,
-    pose_from_parts,
     pose_position,
     pose_renormalise,
 )
 from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.quaternion import (
     Quaternion,
-    quaternion_add,
     quaternion_conjugate,
     quaternion_dot,
     quaternion_multiply,
-    quaternion_scale,
-    rotate,
     rotate_inverse,
 )
 from dq_marine.algebra.selection import smallest_normal, spread
@@ -50,70 +45,24 @@ from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.energy_level import levelling
+from dq_marine.integrator.forced_stages import (
+    ForcedStage,
+    Place,
+    Surroundings,
+    follow,
+    make_evaluate,
+    moved_place,
+    multiplied,
+    place_extent,
+)
 from dq_marine.integrator.forces import join_pose_forces, join_potentials
 from dq_marine.integrator.gauss_stages import squared_length, weighted_square
-from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, turned, unit
+from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, unit
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.staged import Step
 from dq_marine.integrator.step import Composition, StepParameters
 from dq_marine.integrator.sweeps import make_sweeps
 from dq_marine.integrator.water import as_it_is
-
-
-class Place(NamedTuple):
-    """What is integrated: c = h mu, the attitude, and the way since the step's start in world axes [m]."""
-
-    momentum: Spatial
-    attitude: Quaternion
-    way: Vector3
-
-
-class ForcedStage(NamedTuple):
-    """One evaluation of (G7) and of the rates in (G8): these, h^2 F, h times the twist, and the attitude there."""
-
-    rate: Place
-    wrench: Spatial
-    twist: Spatial
-    attitude: Quaternion
-
-
-class Surroundings(NamedTuple):
-    """What the rates depend on besides where the body is.
-
-    Attributes:
-        parameters: of the step.
-        length_squared: see `gauss_stages.squared_length`.
-        size: the square of the momentum that changes are compared with.
-        h: step size [s].
-        position: at the step's start [m].
-        wrench: constant, body frame.
-        began: time of the step's start [s].
-        elapsed: from then to the stage [s].
-    """
-
-    parameters: StepParameters
-    length_squared: float
-    size: float
-    h: float
-    position: Vector3
-    wrench: Spatial
-    began: float
-    elapsed: float
-
-
-def moved_place(place: Place, s: float, rate: Place) -> Place:
-    """Return place + s rate."""
-    return Place(
-        spatial_add_scaled(place.momentum, s, rate.momentum),
-        quaternion_add(place.attitude, quaternion_scale(s, rate.attitude)),
-        add_scaled(place.way, s, rate.way),
-    )
-
-
-def place_extent(around: Surroundings, rate: Place) -> float:
-    """Return the square of the size of a rate; ways follow from the rest, or show in the forces."""
-    turning = around.size * quaternion_dot(rate.attitude, rate.attitude)
-    return weighted_square(around.length_squared, rate.momentum) + turning
 
 
 def turned_to_world(q: Quaternion, a: Vector3) -> Vector3:
@@ -183,24 +132,9 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
 
 def make_forced_step(composition: Composition, method: Collocation) -> Step:
     """Return (parameters, time, h, pose, momentum, wrench) -> (pose, momentum, report): one step of order 2s."""
-    forces_at, land = composition.stage_forces, make_landing(composition)
+    evaluate, land = make_evaluate(composition), make_landing(composition)
     carry = composition.water.at_stages.carry
     weights, nodes = method.weights, method.nodes
-
-    def evaluate(around: Surroundings, place: Place) -> ForcedStage:
-        parameters, time = around.parameters, around.began + around.elapsed
-        twist = twist_from_momentum(parameters.inertia, place.momentum)
-        pose = pose_from_parts(place.attitude, add(around.position, place.way))
-        pose = carry(parameters.water, around.began, around.elapsed, pose)
-        acting = forces_at(parameters, pose, spatial_scale(1.0 / around.h, twist), time, around.wrench)
-        wrench = spatial_scale(around.h * around.h, acting)
-        rate = Place(
-            spatial_add(momentum_bracket(twist, place.momentum), wrench),  # (G7)
-            turned(place.attitude, scale(0.5, twist.angular)),  # (G8)
-            rotate(place.attitude, twist.linear),
-        )
-        return ForcedStage(rate, wrench, twist, place.attitude)
-
     sweeps = make_sweeps(method, evaluate, moved_place, place_extent, loose=True)
 
     def forced_step(
@@ -243,11 +177,6 @@ def make_forced_step(composition: Composition, method: Collocation) -> Step:
     return forced_step
 
 
-def follow(start: Place, change: Place) -> Place:
-    """Return start + change."""
-    return moved_place(start, 1.0, change)
-
-
 def to_body(q: Quaternion, momentum: Spatial) -> Spatial:
     """Return a momentum about the body's origin, in its axes."""
     return Spatial(rotate_inverse(q, momentum.angular), rotate_inverse(q, momentum.linear))
@@ -263,8 +192,3 @@ def motion(start: Place, end: Place) -> Increment:
 def consistent_twice(length: float, increment: Increment, before: Spatial, after: Spatial) -> Increment:
     """Return the increment that carries one momentum to another: two steps of Newton's method (G6)."""
     return consistent(length, consistent(length, increment, before, after), before, after)
-
-
-def multiplied(a: float, b: float) -> float:
-    """Return a b."""
-    return a * b

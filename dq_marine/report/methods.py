@@ -174,7 +174,8 @@ METHODS = {
         baseline("decoupled_lie", "Lie group, SO(3) x R3", "Lie group", 2, 1, make_decoupled_lie, 2),
     )
 }
-"""The methods by name. With damping, DQVI of order 4 is extrapolation, with 2 + 3 kicks, instead of composition."""
+"""The methods by name. With damping, DQVI of order 4 is extrapolation, with 2 + 3 kicks, instead of composition; and
+`gauss8` is Radau's method of order 7 instead of Gauss's."""
 
 SWEPT = tuple(name for name, method in METHODS.items() if method.evaluations == BY_SWEEPS)
 """Methods that solve a step by sweeps."""

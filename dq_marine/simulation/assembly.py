@@ -141,7 +141,7 @@ class Assembly:
         """The functions of the step."""
         if self._collocated:
             strang = replace(self, scheme="midpoint", order=2).composition
-            return self._collocated.compose(strang, self.order, compiled_forms(self._drag), self._potentials)
+            return self._collocated.compose(strang, self.order, self.damping, self._potentials)
         drift, fallback = DRIFTS["midpoint" if self.scheme == "galerkin" else self.scheme]
         return Composition(
             method=self._method.make,

@@ -9,12 +9,14 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
+from dq_marine.integrator.damping import DampingAlgebra
 from dq_marine.integrator.fallback import FallbackTiming
 from dq_marine.integrator.forces import Potential, VelocityForce
 from dq_marine.integrator.galerkin import PIECES, PiecesTiming, make_galerkin, make_in_pieces
 from dq_marine.integrator.gauss import make_gauss_method
+from dq_marine.integrator.radau import DampedTiming, make_radau_method
 from dq_marine.integrator.step import Composition, make_advance
 from dq_marine.physics.damping.build import DampingTerm
 
@@ -27,13 +29,13 @@ class Collocated(NamedTuple):
 
     Attributes:
         orders: that it solves by collocation.
-        compose: (composition of Strang's method, order, damping as forces, potentials of all forces) -> composition.
+        compose: (composition of Strang's method, order, damping, potentials of all forces) -> composition.
         timing: (damping, step size [s]) -> what the method needs to know of the step size.
     """
 
     orders: tuple[int, ...]
-    compose: Callable[[Composition, int, VelocityForces, Potentials], Composition]
-    timing: Callable[[DampingTerm, float], FallbackTiming]
+    compose: Callable[[Composition, int, DampingTerm, Potentials], Composition]
+    timing: Callable[[DampingTerm, float], Any]
 
 
 def with_drag(strang: Composition, drag: VelocityForces) -> Composition:
@@ -44,33 +46,61 @@ def with_drag(strang: Composition, drag: VelocityForces) -> Composition:
     return replace(strang, velocity_forces=(*strang.velocity_forces, *drag))
 
 
+def drag_of(damping: DampingTerm) -> VelocityForces:
+    """Return damping as forces, as the step calls them."""
+    return tuple(term.compiled_form for term in damping.drag)
+
+
 @functools.cache
-def gauss_composition(
-    strang: Composition, order: int, drag: VelocityForces, potentials: Potentials
-) -> Composition:
-    """Return the composition of Gauss's collocation on the momentum."""
+def gauss_composition(strang: Composition, order: int, potentials: Potentials) -> Composition:
+    """Return the composition of Gauss's collocation on the momentum, without damping."""
     return replace(
-        with_drag(strang, drag),
+        strang,
         method=make_gauss_method(order // 2),
         fallback=make_advance(strang),
         potentials=potentials,
     )
 
 
-def gauss_timing(damping: DampingTerm, step: float) -> FallbackTiming:
-    """Return the timing of Gauss's collocation on the momentum."""
+@functools.cache
+def radau_composition(
+    strang: Composition, algebra: DampingAlgebra, grows: bool, drag: VelocityForces
+) -> Composition:
+    """Return the composition of Radau's collocation, for one kind of damping matrix."""
+    method = make_radau_method(algebra, grows=grows)
+    return replace(with_drag(strang, drag), method=method, fallback=make_advance(strang))
+
+
+def compose_gauss(
+    strang: Composition, order: int, damping: DampingTerm, potentials: Potentials
+) -> Composition:
+    """Return the composition of collocation on the momentum: Gauss's, and with damping Radau's."""
+    if damping.names:
+        return radau_composition(strang, damping.algebra, damping.grows, drag_of(damping))
+    return gauss_composition(strang, order, potentials)
+
+
+def gauss_timing(damping: DampingTerm, step: float) -> FallbackTiming | DampedTiming:
+    """Return the timing of the same."""
+    if damping.names:
+        return DampedTiming(step, damping.drag[0].parameters, damping.timing(step))
     return FallbackTiming(step, damping.timing(step))
 
 
 @functools.cache
-def galerkin_composition(
-    strang: Composition, order: int, drag: VelocityForces, potentials: Potentials
-) -> Composition:
-    """Return the composition of a Galerkin variational integrator, which needs no potentials."""
+def galerkin_composition(strang: Composition, order: int, drag: VelocityForces) -> Composition:
+    """Return the composition of a Galerkin variational integrator."""
     collocated = with_drag(strang, drag)
     return replace(
         collocated, method=make_galerkin(order), fallback=make_in_pieces(collocated, order, strang)
     )
+
+
+def compose_galerkin(
+    strang: Composition, order: int, damping: DampingTerm, potentials: Potentials
+) -> Composition:
+    """Return the same; it needs no potentials."""
+    return galerkin_composition(strang, order, drag_of(damping))
 
 
 def galerkin_timing(damping: DampingTerm, step: float) -> FallbackTiming:
@@ -79,7 +109,7 @@ def galerkin_timing(damping: DampingTerm, step: float) -> FallbackTiming:
 
 
 COLLOCATED = {
-    "galerkin": Collocated((4, 6, 8), galerkin_composition, galerkin_timing),
-    "gauss": Collocated((8,), gauss_composition, gauss_timing),
+    "galerkin": Collocated((4, 6, 8), compose_galerkin, galerkin_timing),
+    "gauss": Collocated((8,), compose_gauss, gauss_timing),
 }
 """By name."""

@@ -71,11 +71,11 @@ class Scene:
             current: velocity of the water in NED, shape (3,) [m/s]; or a
                 `dq_marine.CurrentProfile` or `dq_marine.GaussMarkovCurrent`, or a dictionary of its attributes.
             scheme: "midpoint"; "paper" for that of Xu & Halse; "galerkin" for the variational integrators whose orders
-                above 2 need no substeps; or "gauss" for collocation on the momentum, exact in momentum and energy but
-                not variational.
+                above 2 need no substeps; or "gauss" for collocation on the momentum: without damping exact in momentum
+                and energy but not variational, with damping L-stable.
             step: step size h [s]; a negative one runs time backwards, in a scene without dissipation.
             order: order of the method: 2 or 4; or 6 or 8 in a scene without damping and velocity forces, or with
-                "galerkin" in any; 8 of "gauss".
+                "galerkin" in any; 8 of "gauss", which with damping is of order 7.
             kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
             hydrostatics: "linear": for a vessel that floats, its waterplane's restoring force for small motions, and
                 for any other vehicle, weight and buoyancy under water; or "hull": buoyancy of the boxes of its hull at

@@ -13,7 +13,7 @@ from dq_marine.algebra import frames, screw
 from dq_marine.algebra import quaternion as qt
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_from_parts
 from dq_marine.algebra.screw import pose_exp, pose_log, sclerp
-from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.spatial import Matrix6, Spatial
 from dq_marine.backend.batched import batched
 from dq_marine.backend.packing import pack
 
@@ -137,6 +137,7 @@ ARITHMETIC = (
     (frames.adjoint_matrix, "p"),
     (frames.twist_bracket, "tt"),
     (frames.momentum_bracket, "tt"),
+    (frames.momentum_bracket_slope, "mtt"),
     (frames.twist_body_to_world, "pt"),
     (frames.twist_world_to_body, "pt"),
     (frames.wrench_body_to_world, "pt"),
@@ -156,13 +157,15 @@ ARITHMETIC = (
 
 
 def draw(kind, rng, shape):
-    """Arrays for a scalar, vector, unit quaternion, unit dual quaternion or twist."""
+    """Arrays for a scalar, vector, unit quaternion, unit dual quaternion, twist or 6x6 matrix."""
     if kind == "s":
         return rng.normal(size=shape)
     if kind == "v":
         return tuple(rng.normal(size=(3, *shape)))
     if kind == "t":
         return Spatial(draw("v", rng, shape), draw("v", rng, shape))
+    if kind == "m":
+        return Matrix6(*(tuple(rng.normal(size=(9, *shape))) for _ in range(4)))
     if kind == "p":
         return pose_from_parts(draw("q", rng, shape), draw("v", rng, shape))
     q = rng.normal(size=(4, *shape))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support.bodies import PlainBody, make_body, random_damping, random_inertia, random_quaternion
+from support.bodies import PlainBody, make_body, random_inertia, random_quaternion
 from support.fossen import errors, solve
 from support.order import observed_order
 from support.sweeps import sweep
@@ -196,48 +196,6 @@ def test_a_body_at_rest_stays():
     body.step(steps=9)
     assert np.array_equal(body.position_ned, np.zeros(3))
     assert np.array_equal(body.quaternion_body_to_ned, (1.0, 0.0, 0.0, 0.0))
-
-
-# Damping
-
-DAMPED = {
-    "linear": {"linear": True},
-    "quadratic": {"quadratic": (3.0, 5.0, 4.0, 1.0, 2.0, 1.5)},
-    "everything": {"linear": True, "quadratic": (3.0, 5.0, 4.0, 1.0, 2.0, 1.5), **GRAVITY},
-}
-
-
-@pytest.mark.parametrize("name", DAMPED)
-def test_order_eight_with_damping(name):
-    """Velocities keep their signs: |nu| nu has a kink at zero."""
-    rng = np.random.default_rng(7)
-    case = dict(DAMPED[name])
-    m = random_inertia(rng, 5.0)
-    if "linear" in case:
-        case["linear"] = random_damping(rng)
-    q, velocity = random_quaternion(rng), 0.5 + 0.5 * rng.uniform(size=6)
-    wrench = np.abs(rng.normal(size=6)) * 6.0
-    reference = solve(m, np.zeros(3), q, velocity, 0.5, wrench=wrench, rtol=3e-14, **case)
-    counts, measured = np.array([2, 3, 4, 5]), []
-    for count in counts:
-        body = gauss_body(m, 0.5 / count, PlainBody, **case)
-        body.reset(np.zeros(3), q, velocity)
-        body.step(wrench, int(count))
-        assert body.fallback_steps == 0
-        measured.append(errors(body, reference))
-    for kind, series in zip(("position", "attitude", "velocity"), np.array(measured).T, strict=True):
-        observed = observed_order(0.5 / counts, series)
-        assert observed > 7.0, f"{kind}: {series}"
-
-
-@pytest.mark.parametrize("stiffness", 10.0 ** np.arange(-2, 7, 2))
-def test_stiff_damping_goes_to_the_fallback_which_is_stable(stiffness):
-    h = 0.1
-    body = gauss_body(np.eye(6), h, PlainBody, linear=stiffness / h * np.eye(6))
-    body.reset(velocity_body=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    body.step(steps=20)
-    assert abs(body.velocity_body[0]) <= np.exp(-min(20.0 * stiffness, 30.0)) * 1.1 + 1e-12
-    assert (body.fallback_steps > 0) == (stiffness > 10.0)
 
 
 def test_sweeps_that_overflow_are_not_taken_for_converged():

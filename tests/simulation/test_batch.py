@@ -63,6 +63,13 @@ CASES = {
     },
     "implicit node": {"l_stable": False, "linear": LINEAR, "quadratic": QUADRATIC},
     "gauss, free": {"order": 8, "scheme": "gauss", "current": CURRENT},
+    "gauss, damped": {
+        "order": 8,
+        "scheme": "gauss",
+        "linear": LINEAR,
+        "quadratic": QUADRATIC,
+        **GRAVITY,
+    },
     "gauss, forces": {"order": 8, "scheme": "gauss", "forces": FORCES[:2], **GRAVITY},
 }
 

@@ -113,15 +113,15 @@ class DampingTerm(NamedTuple):
         if not self.names:
             return undamped_kick
         if not self.l_stable:
-            return make_node_kick(self._algebra)
-        return make_quadratic_kick(self._algebra) if self._grows else linear_kick
+            return make_node_kick(self.algebra)
+        return make_quadratic_kick(self.algebra) if self.grows else linear_kick
 
     @property
     def accurate_kick(self) -> Kick:
         """The same for a method of fourth order."""
-        if not self.l_stable or not self._grows:
+        if not self.l_stable or not self.grows:
             return self.kick
-        return make_rosenbrock_kick(self._algebra)
+        return make_rosenbrock_kick(self.algebra)
 
     def timing(self, step: float) -> StrangTiming:
         """Return what Strang's method needs to know of a step size [s]."""
@@ -136,7 +136,7 @@ class DampingTerm(NamedTuple):
     @property
     def matrices(self) -> DiagonalDamping | FullDamping | CoupledDamping | tuple[()]:
         """Matrices that the kick needs for any duration; none if a kick can be prepared for each duration."""
-        if not self.names or (self.l_stable and not self._grows):
+        if not self.names or (self.l_stable and not self.grows):
             return ()
         coefficients = spatial(self.quadratic)
         own: DiagonalDamping | FullDamping
@@ -164,10 +164,10 @@ class DampingTerm(NamedTuple):
         if not self.names:
             return ()
         matrices = self._replace(l_stable=False).matrices
-        return (ForceTerm(self.names[0], make_drag(self._algebra), matrices, uses_velocity=True),)
+        return (ForceTerm(self.names[0], make_drag(self.algebra), matrices, uses_velocity=True),)
 
     @property
-    def _grows(self) -> bool:
+    def grows(self) -> bool:
         """Whether damping depends on the velocity."""
         return bool(self.quadratic.any()) or self._is_coupled
 
@@ -184,7 +184,8 @@ class DampingTerm(NamedTuple):
         return not (self.linear - np.diag(np.diag(self.linear))).any()
 
     @property
-    def _algebra(self) -> DampingAlgebra:
+    def algebra(self) -> DampingAlgebra:
+        """Operations on the kind of matrix that this damping needs."""
         if self._is_coupled:
             return coupled_algebra(self._structure)
         return DIAGONAL if self._is_diagonal else FULL
@@ -201,7 +202,7 @@ class DampingTerm(NamedTuple):
         return DampingStructure(tuple(couplings), tuple(shapes), tuple(axes), self._is_diagonal)
 
     def _kick_parameters(self, duration: float) -> UndampedKick | LinearKick | QuadraticKick:
-        if self._grows:
+        if self.grows:
             return QuadraticKick(duration)
         return self._linear_kick(duration) if self.linear.any() else UndampedKick(duration)
 

@@ -80,8 +80,8 @@ def order_table(all_curves: dict[str, dict[str, Curve]]) -> Table:
         lines,
         f"By least squares over the finest points with errors from {power(SMALLEST)} to {power(LARGEST)}, well above "
         "what the reference is known to, before round-off stops an error from falling, and with steps below "
-        f"{SMALL:g} of the damping's time; empty where there are fewer than three. Quadratic damping limits every "
-        "order to 3: |v| v is not smooth where a velocity changes sign.",
+        f"{SMALL:g} of the damping's time; empty where there are fewer than three. Quadratic damping limits "
+        "orders to 3, as |v| v is not smooth where a velocity changes sign; `gauss8` follows that.",
     )
 
 

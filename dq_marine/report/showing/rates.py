@@ -29,10 +29,10 @@ def largest_small_step(case: Case) -> float:
 
 
 def smoothness_limit(case: Case) -> int | None:
-    """Return the order that no method exceeds on a case, None if there is no such limit.
+    """Return the order that no method exceeds on a case unless it follows kinks, None if there is no such limit.
 
     A velocity that passes through zero has a kink in the second derivative of |v| v: one step there has an error of
-    third order in h, whatever the method.
+    third order in h, whatever the method, but for one whose quadrature ends and begins at the zero.
     """
     return 3 if case.physics.quadratic.any() else None
 

@@ -211,20 +211,20 @@ def test_with_stages_a_free_sphere_keeps_its_velocity_over_ground_in_shear(schem
     assert np.abs(attitude.apply(body.velocity_body[:3]) - velocity).max() < 1e-12
 
 
-def test_stiff_damping_in_a_profile_goes_to_the_fallback_which_is_the_default_step():
-    stiff = {"linear": 1e3 * np.eye(6), "current": profile_water(LAYERS)}
+def test_stiff_damping_in_a_profile_is_solved_and_agrees_with_small_steps():
+    """With h lambda of some 100: in the profile, the stages are where the body is, and so is its water."""
+    stiff = {"linear": 1e3 * np.eye(6), "current": profile_water(SLOPE)}
     rng = np.random.default_rng(4)
     m, begin, wrench = random_inertia(rng), start(rng), 1e3 * rng.normal(size=6)
-    bodies = [
-        make_body(m, 0.1, scheme=scheme, order=order, kind=PlainBody, **stiff)
-        for scheme, order in (("midpoint", 2), ("gauss", 8))
-    ]
-    for body in bodies:
+    radau = make_body(m, 0.1, scheme="gauss", order=8, kind=PlainBody, **stiff)
+    fine = make_body(m, 0.001, kind=PlainBody, **stiff)
+    for body, count in ((radau, 5), (fine, 500)):
         body.reset(*begin)
-        for _ in range(5):
-            body.step(wrench)
-    assert bodies[1].fallback_steps == 5
-    assert np.array_equal(bodies[0].get_state(), bodies[1].get_state())
+        body.step(wrench, count)
+    assert radau.fallback_steps == 0
+    rotation = Rotation.from_quat(np.roll(fine.quaternion_body_to_ned, -1)).as_matrix()
+    end = (fine.position_ned, rotation, fine.velocity_body)
+    assert max(errors(radau, end)) < 1e-3
 
 
 def test_a_free_body_keeps_its_velocity_over_ground_in_shear():

@@ -66,7 +66,7 @@ def test_the_drag_is_the_tensors_and_the_strips(seed):
     rng = np.random.default_rng(seed)
     term, drag = random_term(rng)
     nu = rng.normal(size=6)
-    got = term._algebra.apply(term._algebra.at(term.matrices, spatial(nu)), spatial(nu))
+    got = term.algebra.apply(term.algebra.at(term.matrices, spatial(nu)), spatial(nu))
     assert np.allclose(to_fossen(got), drag(nu), rtol=0, atol=1e-11)
 
 
@@ -85,7 +85,7 @@ def test_the_slope_is_the_exact_derivative(seed):
     width = 1e-3
     steps = width * np.eye(6)
     differences = np.column_stack([(drag(nu + step) - drag(nu - step)) / (2.0 * width) for step in steps])
-    slope = array(term._algebra.slope(term.matrices, spatial(nu)))
+    slope = array(term.algebra.slope(term.matrices, spatial(nu)))
     assume(nearest_kink(term, nu) > width)
     blended = np.ix_([0, 5], [0])
     assert np.allclose(slope[blended], differences[blended], rtol=0, atol=1e-4)

@@ -55,7 +55,7 @@ def test_a_vehicles_strips_drag_as_written(tmp_path, plane):
     vehicle = load_vehicle(extended(tmp_path, table))
     term = vehicle_damping(vehicle)
     nu = np.array([0.4, -0.7, 0.3, 0.2, -1.5, 2.5])
-    algebra = term._algebra
+    algebra = term.algebra
     drag = algebra.apply(algebra.at(term.matrices, spatial(nu)), spatial(nu))
     own = vehicle.linear_damping @ nu + vehicle.quadratic_damping * np.abs(nu) * nu
     row = (0.5 * 1026.0 * 0.2 * 0.9 * 0.05, 0.05 - 0.2 + 0.025, 0.05, 8)

@@ -22,7 +22,14 @@ from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.nesting import folded
 from dq_marine.algebra.selection import select
-from dq_marine.algebra.spatial import Matrix6, Spatial, matrix6_add_scaled, spatial_scale, spatial_subtract
+from dq_marine.algebra.spatial import (
+    Matrix6,
+    Spatial,
+    matrix6_add_scaled,
+    matrix6_diagonal,
+    spatial_scale,
+    spatial_subtract,
+)
 from dq_marine.integrator.damping import DampingAlgebra
 from dq_marine.physics.damping.formulas.blended import (
     Blend,
@@ -228,6 +235,9 @@ def coupled_algebra(structure: DampingStructure) -> DampingAlgebra:
         slow, fast = diagonal_of(coupled_at(damping, before)), diagonal_of(coupled_at(damping, after))
         return spatial_scale(s, spatial_subtract(fast, slow))
 
+    def coupled_corners(damping: CoupledDamping) -> Spatial:
+        return damping.own.quadratic
+
     return DampingAlgebra(
         at=coupled_at,
         slope=coupled_slope,
@@ -236,4 +246,6 @@ def coupled_algebra(structure: DampingStructure) -> DampingAlgebra:
         add_scaled=kind.add_scaled,
         add_slope=matrix6_add_scaled,
         sandwich=kind.sandwich,
+        slope_diagonal=matrix6_diagonal,
+        corners=coupled_corners,
     )

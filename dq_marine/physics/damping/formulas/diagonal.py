@@ -14,6 +14,7 @@ from dq_marine.algebra.spatial import (
     Spatial,
     matrix6_add_diagonal,
     matrix6_add_scaled,
+    matrix6_diagonal,
     matrix6_multiply,
     matrix6_transform,
     spatial_absolute,
@@ -87,6 +88,16 @@ def full_sandwich(d: Matrix6, m: Matrix6) -> Matrix6:
     return matrix6_multiply(d, matrix6_multiply(m, d))
 
 
+def diagonal_diagonal(d: Spatial) -> Spatial:
+    """Return the diagonal, which is all that there is."""
+    return d
+
+
+def own_axis_corners(damping: DiagonalDamping | FullDamping) -> Spatial:
+    """Return the quadratic coefficients."""
+    return damping.quadratic
+
+
 DIAGONAL = DampingAlgebra(
     at=diagonal_at,
     slope=diagonal_slope,
@@ -95,6 +106,8 @@ DIAGONAL = DampingAlgebra(
     add_scaled=diagonal_add_scaled,
     add_slope=diagonal_add_scaled,
     sandwich=diagonal_sandwich,
+    slope_diagonal=diagonal_diagonal,
+    corners=own_axis_corners,
 )
 FULL = DampingAlgebra(
     at=full_at,
@@ -104,4 +117,6 @@ FULL = DampingAlgebra(
     add_scaled=matrix6_add_scaled,
     add_slope=matrix6_add_scaled,
     sandwich=full_sandwich,
+    slope_diagonal=matrix6_diagonal,
+    corners=own_axis_corners,
 )

@@ -17,6 +17,7 @@ from dq_marine.algebra.spatial import (
     Spatial,
     matrix6_add_diagonal,
     matrix6_add_scaled,
+    matrix6_diagonal,
     matrix6_transform,
     spatial_multiply_elementwise,
 )
@@ -69,16 +70,10 @@ class SparseMatrix(NamedTuple):
     beside: Any
 
 
-def full_diagonal(m: Matrix6) -> Spatial:
-    """Return the diagonal of a matrix."""
-    a, b = m.angular, m.linear
-    return Spatial((a[0], a[4], a[8]), (b[0], b[4], b[8]))
-
-
 FULL_MATRIX = MatrixKind(
     own_at=full_at,
     own_slope=full_slope,
-    diagonal=full_diagonal,
+    diagonal=matrix6_diagonal,
     make_entry_addition=make_entry_addition,
     apply=matrix6_transform,
     add_scaled=matrix6_add_scaled,
