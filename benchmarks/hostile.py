@@ -3,10 +3,11 @@
 Run: python benchmarks/hostile.py [--cases N] [--first SEED] [--processes N] [--out FILE]
 
 A case is drawn from its seed: a door, and arguments of which some are wrong (see tests/hostile). It ends accepted,
-refused with one of our errors, or else badly: with another exception (raw), not within a minute (hung), without a word
-or with a changed state after a refusal, or with steps that are not finite or not repeatable after an acceptance
-(wrong), or with the death of its process (died). `python benchmarks/hostile.py --case SEED` tries one and says what
-happened. The exit status is 1 if any case ended badly.
+refused with one of our errors, or else badly: with another exception (raw), not within a minute nor, tried again by
+itself, within ten (hung), without a word or with a changed state after a refusal, or with steps that are not finite or
+not repeatable after an acceptance (wrong), or with the death of its process (died).
+`python benchmarks/hostile.py --case SEED` tries one and says what happened. The exit status is 1 if any case ended
+badly.
 """
 
 from __future__ import annotations
@@ -44,6 +45,9 @@ CHUNK = 500
 
 LONGEST = 60.0
 """Seconds within which a case has to end; a scene that was never compiled before takes up to twenty of them."""
+
+PATIENCE = 600.0
+"""Seconds that a case which was late has in a process of its own: a busy machine does not make it hang."""
 
 MEMORY = 8 * 2**30
 """Bytes of address space that a child may ask for."""
@@ -136,20 +140,18 @@ def supervise(
             return
         last = first + count
         while first < last:
-            ended = "died"
-            for verdict in from_child(first, last - first):
-                if "hung" in verdict:
-                    ended = "hung"
-                    break
-                verdicts.put(verdict)
-                first += 1
-            if first < last:
-                verdicts.put({"seed": first, "door": "?", "outcome": ended, "detail": ""})
+            for verdict in from_child(first, last - first, LONGEST):
+                verdicts.put(again(first) if verdict["outcome"] == "hung" else verdict)
                 first += 1
 
 
-def from_child(first: int, count: int) -> Iterator[dict[str, Any]]:
-    """Yield the verdicts of a child process, and {"hung": True} where the next is late."""
+def again(seed: int) -> dict[str, Any]:
+    """Return the verdict on a case that was late, tried by itself and with patience."""
+    return next(from_child(seed, 1, PATIENCE))
+
+
+def from_child(first: int, count: int, longest: float) -> Iterator[dict[str, Any]]:
+    """Yield the verdicts of a child process, the last of which may be that it hung or died."""
     command = [sys.executable, __file__, "--worker", str(first), str(count)]
     child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     lines: queue.SimpleQueue[str] = queue.SimpleQueue()
@@ -161,17 +163,21 @@ def from_child(first: int, count: int) -> Iterator[dict[str, Any]]:
         lines.put("")
 
     threading.Thread(target=read, daemon=True).start()
+    seed, last = first, first + count
     try:
-        while True:
+        while seed < last:
             try:
-                line = lines.get(timeout=LONGEST)
+                line = lines.get(timeout=longest)
             except queue.Empty:
-                yield {"hung": True}
-                return
+                line, ended = "", "hung"
+            else:
+                ended = "died"
             if not line:
+                yield {"seed": seed, "door": "?", "outcome": ended, "detail": ""}
                 return
             if line.startswith("{"):
                 yield json.loads(line)
+                seed += 1
     finally:
         child.kill()
         child.wait()
@@ -204,7 +210,7 @@ Measured on {machine}.
 A case gives a public door arguments of which some are wrong: other types, NaN, infinities, numbers beyond any double,
 wrong shapes, objects whose conversions fail, damaged files. It should end *refused*, with an error of ours after which
 the state has the same bits, or *accepted*, after which ten steps are finite and repeatable. *Raw* is another exception,
-*wrong* a broken promise, *hung* longer than a minute, *died* the end of a process.
+*wrong* a broken promise, *hung* longer than a minute and, tried again by itself, than ten, *died* the end of a process.
 """
 
 

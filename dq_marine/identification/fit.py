@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,38 +10,23 @@ from numpy.typing import NDArray
 
 from dq_marine.checks import finite_array, finite_number
 from dq_marine.errors import InvalidInputError
-from dq_marine.identification.identifiability import (
-    LARGEST_SHARE,
-    Held,
-    correlated,
-    covariance,
-    standard_errors,
-    told,
-)
+from dq_marine.identification.identifiability import Held, correlated, covariance
 from dq_marine.identification.lanes import SegmentedLog
 from dq_marine.identification.log import Log
 from dq_marine.identification.model import Model, numbers_of
 from dq_marine.identification.parameters import (
+    CURRENT,
     DEFAULT_GROUPS,
     LARGEST_THETA,
     Parameter,
     Quantity,
     parameters_of,
 )
-from dq_marine.identification.problem import OUTPUTS, Evaluation, Problem
-from dq_marine.util.extras import extra_needed
+from dq_marine.identification.problem import OUTPUTS, Problem
+from dq_marine.identification.search import MOST_ROUNDS, Found, Search, Watch
 from dq_marine.vehicles import Vehicle, vehicle_sheet
 
 Array = NDArray[np.float64]
-
-MOST_ROUNDS = 8
-"""Of solving for theta, then for starts and noise."""
-
-MOST_EVALUATIONS = 12
-"""In a round."""
-
-SETTLED = 0.1
-"""A round that moves no parameter by more than this share of its standard error is the last."""
 
 SEGMENTS = 30
 """Of a log, unless they would be shorter than `SHORTEST` or longer than `LONGEST`."""
@@ -55,8 +40,6 @@ ACCURATE_STEP = 0.05
 
 CLEAN = 10.0
 """Noise over the smallest there is, from which residuals are taken for those of sensors."""
-
-Watch = Callable[[str], None]
 
 
 @dataclass(frozen=True)
@@ -153,35 +136,13 @@ def fit_vehicle(
     model = Model(vehicle, _current(conditions))
     segments = _segments(model, log, conditions)
     problem = Problem(log, model, parameters, segments)
-    free, theta, held = list(range(len(parameters))), np.zeros(len(parameters)), list[Held]()
-    watch("compiling, and asking what the log can tell")
-    problem.take_starts(theta, problem.evaluate(theta, free))
-    evaluation = problem.evaluate(theta, free)
-    shares = problem.shares_of_noise(theta, free, evaluation)
-    settled = False
-    for number in range(1, MOST_ROUNDS + 1):
-        free, lost = told(evaluation.jacobian, shares, free, bound)
-        held += lost
-        known = None if lost else evaluation
-        _check_something_left(free, parameters, held)
-        theta[[one.place for one in held]] = 0.0
-        before = theta.copy()
-        theta, evaluation = _solved(problem, theta, free, known, watch, number)
-        problem.take_starts(theta, evaluation)
-        problem.take_noise(evaluation)
-        evaluation = problem.evaluate(theta, free)
-        shares = problem.shares_of_noise(theta, free, evaluation)
-        errors = standard_errors(evaluation.jacobian)
-        all_told = errors.max() <= bound and shares.max() <= LARGEST_SHARE
-        settled = bool(all_told and (np.abs(theta - before)[free] <= SETTLED * errors).all())
-        if settled:
-            break
-    if evaluation.refused:
+    found = Search(problem, parameters, bound, watch).run()
+    if found.evaluation.refused:
         raise InvalidInputError(
-            f"{evaluation.refused} segments of {log.name} cannot be simulated with the numbers found; give a smaller "
-            "step, or fit fewer groups"
+            f"{found.evaluation.refused} segments of {log.name} cannot be simulated with the numbers found; give a "
+            "smaller step, or fit fewer groups"
         )
-    return _result(problem, log, segments, parameters, theta, free, held, evaluation, settled)
+    return _result(problem, log, segments, parameters, found)
 
 
 def _parameters(vehicle: Vehicle, log: Log, conditions: Conditions) -> tuple[Parameter, ...]:
@@ -212,78 +173,10 @@ def _segments(model: Model, log: Log, conditions: Conditions) -> SegmentedLog:
     return SegmentedLog(log, model, length, min(step, log.period))
 
 
-def _check_something_left(free: Sequence[int], parameters: Sequence[Parameter], held: Sequence[Held]) -> None:
-    if not free:
-        names = ", ".join(parameters[one.place].label for one in held)
-        raise InvalidInputError(
-            f"the log tells nothing of {names}; give one in which the vehicle moves in more ways, or fit less"
-        )
-
-
-def _solved(
-    problem: Problem, theta: Array, free: Sequence[int], known: Evaluation | None, watch: Watch, number: int
-) -> tuple[Array, Evaluation]:
-    """Return the theta of least squares for the starts and the noise that the problem has, and the problem there.
-
-    Args:
-        problem: to be solved.
-        theta: to begin from.
-        free: the parameters that are sought.
-        known: the problem at that theta, if it is known.
-        watch: is told of each simulation.
-        number: of the round.
-    """
-    with extra_needed("identification", "report"):
-        from scipy.optimize import least_squares
-    begin = np.clip(theta[list(free)], -0.99 * LARGEST_THETA, 0.99 * LARGEST_THETA)
-    last = {} if known is None else {begin.tobytes(): known}
-    count = 0
-
-    def whole(part: Array) -> Array:
-        result = theta.copy()
-        result[list(free)] = part
-        return result
-
-    def at(part: Array) -> Evaluation:
-        nonlocal count
-        if part.tobytes() not in last:
-            last.clear()
-            last[part.tobytes()] = problem.evaluate(whole(part), free)
-            count += 1
-            squares = float((last[part.tobytes()].residual ** 2).sum())
-            rms = np.sqrt(squares / problem.readings.sum())
-            watch(f"round {number}, simulation {count}: {rms:.4g} times the noise")
-        return last[part.tobytes()]
-
-    def residual(part: Array) -> Array:
-        return at(part).residual.ravel()
-
-    def jacobian(part: Array) -> Array:
-        return at(part).jacobian
-
-    solution = least_squares(
-        residual,
-        begin,
-        jac=jacobian,
-        bounds=(-LARGEST_THETA, LARGEST_THETA),
-        max_nfev=MOST_EVALUATIONS,
-        xtol=1e-6,
-        ftol=1e-3,  # the next round goes on
-    )
-    return whole(solution.x), at(solution.x)
-
-
 def _result(
-    problem: Problem,
-    log: Log,
-    segments: SegmentedLog,
-    parameters: Sequence[Parameter],
-    theta: Array,
-    free: Sequence[int],
-    held: Sequence[Held],
-    evaluation: Evaluation,
-    settled: bool,
+    problem: Problem, log: Log, segments: SegmentedLog, parameters: Sequence[Parameter], search: Found
 ) -> Fit:
+    theta, free, held, evaluation = search.theta, search.free, search.held, search.evaluation
     kept = [parameters[index] for index in free]
     residuals = np.where(problem.missing, np.nan, evaluation.residual * problem.noise)
     noisy = problem.noise > CLEAN * problem.smallest_noise  # else it is round-off that follows itself
@@ -295,7 +188,7 @@ def _result(
     slopes = np.array([_slopes(problem, kept, theta, index, after) for index in free]).T
     errors = np.sqrt(np.diag(slopes @ spread @ slopes.T))
     notes = _notes(problem, kept, theta[list(free)], held, spread, colour)
-    if not settled:
+    if not search.settled:
         notes += (
             f"The numbers still moved after {MOST_ROUNDS} rounds: do not trust them; fit fewer groups.",
         )
@@ -375,8 +268,10 @@ def _notes(
             f"current {LARGEST_THETA:g} m/s; do not trust it."
         )
     if colour:
+        sought = any(parameter.group == CURRENT for parameter in kept)
+        perhaps = "" if sought else ", such as a current, which may be fitted, too"
         notes.append(
-            f"The residuals of {colour} are no white noise: something is missing in the model, such as a current "
-            "(which may be fitted, too). Standard errors are enlarged for it."
+            f"The residuals of {colour} are no white noise: something is missing in the model{perhaps}. "
+            "Standard errors are enlarged for it."
         )
     return tuple(notes)

@@ -23,7 +23,7 @@ def nominal():
 
 @pytest.fixture(scope="module")
 def log(nominal, tmp_path_factory):
-    rows = rov_log(SEED, 180.0, current=CURRENT)
+    rows = rov_log(SEED, 90.0, current=CURRENT)
     return read_log(written(tmp_path_factory.mktemp("log") / "run.csv", rows), nominal)
 
 
