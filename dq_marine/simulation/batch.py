@@ -237,6 +237,7 @@ class Batch:
         rows = unpack_blocks(self._layout.state, self._shared, self._states, self.size)
         return rows[:, BODY_NUMBERS - 1 :]
 
+    @property
     def kinetic_energy(self) -> NDArray[np.float64]:
         """(1/2) nu_r . M nu_r [J], of body and water, relative to the undisturbed water, shape (size,)."""
         return np.asarray(kinetic_energy(self._parameters.inertia, self._bodies.momentum))
