@@ -28,8 +28,8 @@ def array(m):
 
 def array_of(term, nu):
     """D(nu) of a term in Fossen's order, whatever kind of matrix it is."""
-    d = term._algebra.at(term.matrices, spatial(nu))
-    return array(term._algebra.add_scaled(ZERO, 1.0, d))
+    d = term.algebra.at(term.matrices, spatial(nu))
+    return array(term.algebra.add_scaled(ZERO, 1.0, d))
 
 
 def random_term(rng, couplings=8):
