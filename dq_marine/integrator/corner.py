@@ -27,7 +27,7 @@ Corners: TypeAlias = Callable[[Spatial, Spatial, Spatial], Spatial]
 
 
 class Cubic(NamedTuple):
-    """A cubic height + slope u + curving u^2 + twisting u^3 of the time u from its zero, where the height is nearly 0."""
+    """A cubic height + slope u + curving u^2 + twisting u^3 of the time u from about its zero."""
 
     height: float
     slope: float
