@@ -14,17 +14,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.selection import select, some
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum, stages_apart
+from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.collocation import Collocation
-
-ROOT_STEPS = 3  # of Newton's method, from where the chord has its zero
 
 Corners: TypeAlias = Callable[[Spatial, Spatial, Spatial], Spatial]
 """(c of all axes, twist at the start, twists at the stages) -> C at the stages."""
+
+
+class Cubic(NamedTuple):
+    """A cubic height + slope u + curving u^2 + twisting u^3 of the time u from about its zero."""
+
+    height: float
+    slope: float
+    curving: float
+    twisting: float
 
 
 def flip(before: float, after: float) -> float:
@@ -37,15 +45,31 @@ def beyond(before: float, p: float) -> float:
     return select(before * p < 0.0, p * p, 0.0)
 
 
-def integral_beyond(node: float, zero: float, first: float, second: float, third: float) -> float:
-    """Return the integral of p^2 from its zero to the node, p = u (first + second u + third u^2), u = t - zero."""
+def turned(c: Vector3, before: Vector3, at: Vector3) -> bool:
+    """Whether a velocity with a corner has left the sign that it had before."""
+    return (
+        (c[0] * before[0] * at[0] < 0.0) | (c[1] * before[1] * at[1] < 0.0) | (c[2] * before[2] * at[2] < 0.0)
+    )
+
+
+def any_turned(c: Spatial, before: Spatial, at: Spatial) -> float:
+    """Return 1 where one of six velocities has left the sign that it had before, else 0."""
+    return select(
+        turned(c.angular, before.angular, at.angular) | turned(c.linear, before.linear, at.linear), 1.0, 0.0
+    )
+
+
+def integral_beyond(node: float, zero: float, p: Cubic) -> float:
+    """Return the integral of p^2 from its zero to the node."""
     u = max(node - zero, 0.0)
-    a = first * first * (1.0 / 3.0)
-    b = first * second * 0.5
-    c = (2.0 * first * third + second * second) * 0.2
-    d = second * third * (1.0 / 3.0)
-    e = third * third * (1.0 / 7.0)
-    return u * u * u * (a + u * (b + u * (c + u * (d + u * e))))
+    a = p.height * p.height
+    b = p.height * p.slope
+    c = (p.slope * p.slope + 2.0 * p.height * p.curving) * (1.0 / 3.0)
+    d = (p.slope * p.curving + p.height * p.twisting) * 0.5
+    e = (2.0 * p.slope * p.twisting + p.curving * p.curving) * 0.2
+    f = p.curving * p.twisting * (1.0 / 3.0)
+    g = p.twisting * p.twisting * (1.0 / 7.0)
+    return u * (a + u * (b + u * (c + u * (d + u * (e + u * (f + u * g))))))
 
 
 def missing(wanted: bool, factor: float, exact: float, taken: float) -> float:
@@ -57,7 +81,8 @@ def make_corners(method: Collocation) -> Corners:
     """Return the correction (RI5) of a method with four stages, all axes together."""
     matrix, nodes = method.matrix, method.nodes
     first, second, third, fourth = nodes
-    nothing = (0.0,) * len(nodes)
+    nothing, ones = (0.0,) * len(nodes), (1.0,) * len(nodes)
+    no_corners = make_no_corners(method)
     constant, linear, square, cubic = coefficients(method)
 
     def corner(c: float, before: float, p: Any) -> Any:
@@ -76,20 +101,23 @@ def make_corners(method: Collocation) -> Corners:
             zero = left + (right - left) * (low / (low - high))
             a0, a1 = stage_sum(constant, p), stage_sum(linear, p)
             a2, a3 = stage_sum(square, p), stage_sum(cubic, p)
-            for _ in range(ROOT_STEPS):
-                height = a0 + zero * (a1 + zero * (a2 + zero * a3))
-                slope = a1 + zero * (2.0 * a2 + zero * (3.0 * a3))
-                zero = max(left, min(right, zero - height / select(slope == 0.0, 1.0, slope)))
-            tangent = a1 + zero * (2.0 * a2 + zero * (3.0 * a3))
-            curving = a2 + 3.0 * (zero * a3)
-            at = stage_constants(nodes, before)
-            exact = each_stage(nodes, integral_beyond, (at, zero, tangent, curving, a3))
+            # One step of Newton's method: an error of the zero counts by its cube, as p^2 is small there.
+            height = a0 + zero * (a1 + zero * (a2 + zero * a3))
+            slope = a1 + zero * (2.0 * a2 + zero * (3.0 * a3))
+            zero = max(left, min(right, zero - height / select(slope == 0.0, 1.0, slope)))
+            there = Cubic(
+                a0 + zero * (a1 + zero * (a2 + zero * a3)),
+                a1 + zero * (2.0 * a2 + zero * (3.0 * a3)),
+                a2 + 3.0 * (zero * a3),
+                a3,
+            )
+            exact = each_stage(nodes, integral_beyond, (stage_constants(nodes, before), zero, there))
             taken = stage_product(matrix, each_stage(nodes, beyond, (before, p)))
             factor = select(before < 0.0, -2.0 * c, 2.0 * c)
             found = each_stage(nodes, missing, (crosses, factor, exact, taken))
         return found
 
-    def corners(c: Spatial, start: Spatial, at: Spatial) -> Spatial:
+    def all_corners(c: Spatial, start: Spatial, at: Spatial) -> Spatial:
         angular, linear = at.angular, at.linear
         return Spatial(
             (
@@ -103,6 +131,12 @@ def make_corners(method: Collocation) -> Corners:
                 corner(c.linear[2], start.linear[2], linear[2]),
             ),
         )
+
+    def corners(c: Spatial, start: Spatial, at: Spatial) -> Spatial:
+        found = no_corners(c, start, at)
+        if some(stage_sum(ones, each_stage(nodes, any_turned, (c, start, at))) > 0.0):
+            found = all_corners(c, start, at)
+        return found
 
     return corners
 

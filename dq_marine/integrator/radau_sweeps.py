@@ -30,9 +30,9 @@ from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE, kept, same
 
 MAX_SWEEPS = 40
 TELLING = 3  # the sweep whose rates tell how exact the method is; tests begin there
-LARGEST_TELLTALE = 0.02  # of the size, squared: larger rates do not tell the error
+LARGEST_TELLTALE = 0.06  # of the size, squared: larger rates do not tell the error
 OF_THE_ERROR = 0.0003  # of the square of the highest power in the rates' polynomial
-SLOW = 0.15  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
+SLOW = 0.25  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
 SLOWEST = 0.5  # the same: sweeps that shrink it less are not done
 HOPELESS = 1e12  # of the size, squared: sweeps that change more diverge
 CORNER_SWEEPS = (
