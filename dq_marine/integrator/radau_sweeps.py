@@ -29,15 +29,14 @@ from dq_marine.integrator.stage_newton import make_stage_newton
 from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE, kept, same
 
 MAX_SWEEPS = 40
-TELLING = 3  # the sweep whose rates tell how exact the method is; tests begin there
+TELLING = 4  # the sweep whose rates tell how exact the method is; tests begin there, once corners are in
 LARGEST_TELLTALE = 0.06  # of the size, squared: larger rates do not tell the error
 OF_THE_ERROR = 0.0003  # of the square of the highest power in the rates' polynomial
 SLOW = 0.25  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
 SLOWEST = 0.5  # the same: sweeps that shrink it less are not done
 HOPELESS = 1e12  # of the size, squared: sweeps that change more diverge
-CORNER_SWEEPS = (
-    16  # that follow corners; where zeros of velocities come and go for longer, sweeps go on without
-)
+CORNER_PERIOD = 3  # sweeps from one look at corners to the next: they settle sooner than the rest
+CORNER_SWEEPS = 16  # that follow corners: where zeros come and go for longer, sweeps go on without
 
 Solve: TypeAlias = Callable[
     [Surroundings, Any, Place, ForcedStage, float],
@@ -118,7 +117,7 @@ def make_solve(
             renewed = active & (last > SLOW * before)  # after the first sweep `before` is infinite
             implicit = implicit | renewed
             now = each_stage(weights, evaluate, (around, y))
-            if sweep % 2 == 0:
+            if sweep % CORNER_PERIOD == 0:
                 corner = corners(c, at_start, now.twist)
             if sweep > CORNER_SWEEPS:
                 corner = no_corners(c, at_start, now.twist)
