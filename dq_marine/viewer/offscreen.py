@@ -56,8 +56,8 @@ class OffscreenViewer(Closable):
             if not 1 <= pixels <= LARGEST_SIDE:
                 raise InvalidInputError(f"{name} is {pixels}; give 1 to {LARGEST_SIDE} pixels")
         floor_depth = checked_floor_depth(floor_depth)
-        find_chromium()
         self._image = drawing_library("PIL.Image")
+        find_chromium()
         self._size = (width, height)
         self._caption = caption
         self._timeout = FIRST_PICTURE_TIMEOUT

@@ -58,8 +58,8 @@ def bare(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     return tmp_path / "bin"
 
 
-def test_offscreen_viewer_needs_pillow(monkeypatch: pytest.MonkeyPatch, bare: Path) -> None:
-    program(bare / "chromium")
+@pytest.mark.usefixtures("bare")
+def test_the_library_that_pip_installs_is_named_before_the_browser(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "PIL.Image", None)
     with pytest.raises(MissingDependencyError, match=f"'PIL.Image'.*{INSTALL}"):
         OffscreenViewer(ROV)
