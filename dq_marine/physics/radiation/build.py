@@ -152,10 +152,10 @@ def checked_radiation(radiation: str, vehicle: Vehicle) -> None:
         InvalidInputError: with the reason.
     """
     one_of("radiation", radiation, RADIATIONS)
-    memory_term(vehicle, radiation)
-    if radiation == MEMORY and vehicle.damping.wave_share is None:
+    if radiation == MEMORY and vehicle.radiation is not None and vehicle.damping.wave_share is None:
         raise InvalidInputError(
             f"radiation = 'memory', but the file of {vehicle.name!r} does not say how much of its linear damping "
             "stands for the waves that it makes, which would count twice; give damping.wave_share, six numbers from 0 "
             'to 1, or radiation="constant"'
         )
+    memory_term(vehicle, radiation)
