@@ -44,13 +44,6 @@ class Twists(NamedTuple):
     cube: Spatial
 
 
-class HalfMotions(NamedTuple):
-    """From the middle of a step to its ends, split in what is even and what is odd in the direction of time."""
-
-    even: Increment
-    odd: Increment
-
-
 def unit(q: Quaternion) -> Quaternion:
     """Return q / |q|."""
     return quaternion_scale(1.0 / math.sqrt(quaternion_dot(q, q)), q)
