@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from support.fossen import coriolis
+from support.lanes import assert_actuated_lanes_equal_singles
 from support.mariner import CENTER, DENSITY, INERTIA, LENGTH, MASS, SERVICE_SPEED, Mariner
 from support.order import observed_order
 
@@ -145,17 +146,8 @@ def test_a_turn_goes_to_that_of_the_equations_integrated_by_scipy_with_the_squar
 
 def test_lanes_have_the_bits_of_single_ships():
     scene, rng, count = Scene(MARINER, step=0.1, actuation="thrusters"), np.random.default_rng(2), 9
-    batch = scene.batch(count)
     velocities = rng.normal(0.0, (5.0, 1.0, 0.1, 0.01, 0.01, 0.02), (count, 6))
-    commands = rng.uniform(-FULL, FULL, (count, 1))
-    batch.reset(velocity_body=velocities)
-    batch.actuate(commands, 40)
-    for lane in range(count):
-        body = scene.stepper()
-        body.reset(velocity_body=velocities[lane])
-        body.actuate(commands[lane], 40)
-        assert np.array_equal(batch.velocity_body[lane], body.velocity_body)
-        assert np.array_equal(batch.position_ned[lane], body.position_ned)
+    assert_actuated_lanes_equal_singles(scene, velocities, rng.uniform(-FULL, FULL, (count, 1)), 40)
 
 
 def test_a_current_is_what_the_ship_moves_through():

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from support.fossen import coriolis
+from support.lanes import assert_actuated_lanes_equal_singles
 from support.mmg import KvlccModel, gaussian_wake, turning_figures
 from support.order import observed_order
 
@@ -196,20 +197,12 @@ def test_the_order_is_kept():
 
 
 def test_lanes_have_the_bits_of_single_ships():
-    vehicle, rng = load_vehicle("kvlcc2_l7"), np.random.default_rng(2)
-    scene = Scene(vehicle, step=0.05, actuation="thrusters")
-    count = 9
-    batch = scene.batch(count)
+    vehicle, rng, count = load_vehicle("kvlcc2_l7"), np.random.default_rng(2), 9
     velocities = rng.normal(0.0, (1.0, 0.3, 0.05, 0.05, 0.02, 0.2), (count, 6))
     commands = rng.uniform((0.0, -FULL), (SHAFT, FULL), (count, 2))
-    batch.reset(velocity_body=velocities)
-    batch.actuate(commands, 40)
-    for lane in range(count):
-        body = scene.stepper()
-        body.reset(velocity_body=velocities[lane])
-        body.actuate(commands[lane], 40)
-        assert np.array_equal(batch.velocity_body[lane], body.velocity_body)
-        assert np.array_equal(batch.position_ned[lane], body.position_ned)
+    assert_actuated_lanes_equal_singles(
+        Scene(vehicle, step=0.05, actuation="thrusters"), velocities, commands, 40
+    )
 
 
 def hull_wrench(vehicle, u, v, r):
