@@ -13,6 +13,7 @@ from dq_marine.manoeuvres.canvas import (
     new_figure,
     over_time,
 )
+from dq_marine.util.readable import readable
 
 
 def draw(result: Acceleration) -> Any:
@@ -27,7 +28,7 @@ def draw(result: Acceleration) -> Any:
     speed.plot(series.time, series.velocity_body[:, 0], color=SPEED_COLOUR, linewidth=1.8)
     speed.axhline(result.top_speed, color=GUIDE_COLOUR, linestyle="--", linewidth=0.9)
     speed.annotate(
-        f"top speed {result.top_speed:.3g} m/s",
+        f"top speed {readable(result.top_speed)} m/s",
         (float(series.time[-1]), result.top_speed),
         xytext=(0, -4),
         textcoords="offset points",
@@ -39,7 +40,7 @@ def draw(result: Acceleration) -> Any:
             continue
         speed.plot([moment], [share * result.top_speed], "o", color=MARK_COLOUR, markersize=5.5, zorder=4)
         speed.annotate(
-            f"{100.0 * share:.0f} % after {moment:.3g} s",
+            f"{100.0 * share:.0f} % after {readable(moment)} s",
             (moment, share * result.top_speed),
             xytext=(9, -3),
             textcoords="offset points",

@@ -17,6 +17,7 @@ from dq_marine.manoeuvres.canvas import (
     over_time,
 )
 from dq_marine.manoeuvres.stopping import Stopping
+from dq_marine.util.readable import readable
 
 HULLS = 6
 SHOWN_APPROACH = 0.25
@@ -35,7 +36,7 @@ def draw(result: Stopping) -> Any:
         side = -0.8 * result.width
         for reach in (0.0, result.head_reach):
             track.plot([0.0, side], [reach, reach], color=MARK_COLOUR, linewidth=0.7, linestyle=":")
-        text = f"head reach {result.head_reach:.3g} m\ntrack reach {result.track_reach:.3g} m"
+        text = f"head reach {readable(result.head_reach)} m\ntrack reach {readable(result.track_reach)} m"
         measure(
             track,
             (side, 0.0),
@@ -54,7 +55,7 @@ def draw(result: Stopping) -> Any:
         value = float(np.interp(result.stopping_time, series.time, series.velocity_body[:, 0]))
         speed.plot([result.stopping_time], [value], "o", color=MARK_COLOUR, markersize=5.5)
         speed.annotate(
-            f"after {result.stopping_time:.3g} s",
+            f"after {readable(result.stopping_time)} s",
             (0.98, 0.9),
             xycoords="axes fraction",
             ha="right",

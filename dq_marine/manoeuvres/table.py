@@ -10,6 +10,7 @@ from rich.text import Text
 from dq_marine.manoeuvres.quantities import Quantity, Result
 from dq_marine.manoeuvres.series import Series
 from dq_marine.util.files import with_folder, write_csv
+from dq_marine.util.readable import readable
 
 SHIP = 20.0
 """Length from which the limits for ships are shown as a yardstick [m]."""
@@ -37,7 +38,7 @@ def shown(value: float | None) -> str:
     """Return a number for reading."""
     if value is None:
         return "not reached"
-    return f"{0.0 if abs(value) < 1e-9 else value:.4g}"
+    return readable(0.0 if abs(value) < 1e-9 else value, 4)
 
 
 def _limit(quantity: Quantity) -> Text:

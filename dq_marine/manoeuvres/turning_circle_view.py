@@ -23,6 +23,7 @@ from dq_marine.manoeuvres.canvas import (
 from dq_marine.manoeuvres.sides import SIGNS
 from dq_marine.manoeuvres.turning_circle import TurningCircle
 from dq_marine.util.plot_style import PURPLE
+from dq_marine.util.readable import readable
 
 Array = NDArray[np.float64]
 
@@ -60,7 +61,7 @@ def _draw_measures(axes: Any, result: TurningCircle) -> None:
             linewidth=1.0,
         )
         axes.annotate(
-            f"steady radius\n{steady.radius:.3g} m",
+            f"steady radius\n{readable(steady.radius)} m",
             (sign * aside, ahead),
             ha="center",
             va="center",
@@ -76,17 +77,17 @@ def _draw_measures(axes: Any, result: TurningCircle) -> None:
         [(0.0, 0.0), (beside, 0.0)],
         [(sign * result.transfer, result.advance), (beside, result.advance)],
     )
-    text = f"advance {result.advance:.3g} m"
+    text = f"advance {readable(result.advance)} m"
     measure(axes, (beside, 0.0), (beside, result.advance), text, rotation=90, xytext=(-10 * sign, 0))
     x = sign * result.transfer
     _extend(axes, [(x, result.advance), (x, above)], [(0.0, 0.0), (0.0, above)])
-    measure(axes, (0.0, above), (x, above), f"transfer {result.transfer:.3g} m", xytext=(0, 11))
+    measure(axes, (0.0, above), (x, above), f"transfer {readable(result.transfer)} m", xytext=(0, 11))
     x, y = (
         sign * result.tactical_diameter,
         float(np.interp(result.time_180 or 0.0, result.series.time, _ahead(result))),
     )
     _extend(axes, [(x, y), (x, below)], [(0.0, 0.0), (0.0, below)])
-    text = f"tactical diameter {result.tactical_diameter:.3g} m"
+    text = f"tactical diameter {readable(result.tactical_diameter)} m"
     measure(axes, (0.0, below), (x, below), text, xytext=(0, -11))
 
 
