@@ -60,7 +60,7 @@ def _draw_metric(axes: Any, time: Array, metric: Metric, values: Array) -> None:
     axes.yaxis.set_major_formatter("{x:g}")
     axes.axhline(tolerance, color=GREY, linestyle="--", linewidth=1.0)
     axes.annotate(
-        f"settled: {tolerance:g}",
+        f"settled: {tolerance:g} {metric.shown_unit}".rstrip(),
         (1.0, tolerance),
         xycoords=("axes fraction", "data"),
         xytext=(-4, 3),
