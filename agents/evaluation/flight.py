@@ -136,9 +136,9 @@ def episode_table(episode: Episode) -> Table:
         )
         settled = "not" if episode.settling_time is None else f"after {episode.settling_time:.1f} s"
         table.add_row(f"settled within {limits}", settled)
-    table.add_row("return", f"{episode.total_reward:.1f}")
+    table.add_row("return", f"{episode.total_reward:z.1f}")
     for name, values in episode.reward_terms.items():
-        table.add_row(f"  of which {name.removeprefix(REWARD_PREFIX)}", f"{math.fsum(values.tolist()):.1f}")
+        table.add_row(f"  of which {name.removeprefix(REWARD_PREFIX)}", f"{math.fsum(values.tolist()):z.1f}")
     if episode.ended_early:
         table.add_row("ended early", f"after {episode.time[-1]:.1f} s")
     table.add_row("seed", str(episode.seed))

@@ -125,7 +125,8 @@ def test_table_names_agents_metrics_and_units() -> None:
 
 
 def test_a_flights_table_names_metrics_reward_terms_and_the_seed() -> None:
-    terms = {"reward/near": np.array([0.5, 0.25]), "reward/effort": np.array([-0.5, -0.25])}
+    near, effort, idle = ([0.5, 0.25], [-0.5, -0.25], [-0.0, -0.01])
+    terms = {"reward/near": np.array(near), "reward/effort": np.array(effort), "reward/idle": np.array(idle)}
     text = printed(episode_table(episode_of([1.0, 0.04, 0.01], reward_terms=terms, seed=7)))
     for pattern in (
         r"depth error, start\s+│\s+1\.000 m",
@@ -133,6 +134,7 @@ def test_a_flights_table_names_metrics_reward_terms_and_the_seed() -> None:
         r"return\s+│\s+2\.0",
         r"of which near\s+│\s+0\.8",
         r"of which effort\s+│\s+-0\.8",
+        r"of which idle\s+│\s+0\.0",
         r"seed\s+│\s+7",
     ):
         assert re.search(pattern, text), pattern
