@@ -11,7 +11,7 @@ from typing import Any
 import gymnasium as gym
 
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.envs.core.registry import task_named
+from dq_marine.envs.core.registry import full_id, registered_tasks, task_named
 from dq_marine.errors import InvalidInputError
 from dq_marine.simulation.settings import Settings
 
@@ -36,6 +36,9 @@ def known_keywords(identifier: str) -> tuple[str, ...]:
         if module:
             importlib.import_module(module)
         task = gym.spec(name).kwargs.get("task")
+    except gym.error.UnregisteredEnv as error:
+        tasks = ", ".join(task.id for task in registered_tasks())
+        raise InvalidInputError(f"environment id = {identifier!r}: {error} There are {tasks}") from error
     except (gym.error.Error, ImportError) as error:
         raise InvalidInputError(f"environment id = {identifier!r}: {error}") from error
     if task is None:
@@ -70,13 +73,13 @@ def with_changes(
     Args:
         settings: to begin with; where another environment is asked for, their keywords do not count.
         keywords: new values. A dictionary changes the entries that it has; None takes the environment's default.
-        identifier: of another environment; None keeps the settings'.
+        identifier: of another environment, or the short name of a task; None keeps the settings'.
 
     Raises:
         InvalidInputError: see `check_keywords`.
     """
-    if identifier is not None and identifier != settings.id:
-        settings = EnvironmentSettings(id=identifier)
+    if identifier is not None and full_id(identifier) != settings.id:
+        settings = EnvironmentSettings(id=full_id(identifier))
     changed = EnvironmentSettings(id=settings.id, keywords=_merged(settings.keywords, keywords))
     check_keywords(changed)
     return changed

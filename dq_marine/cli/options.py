@@ -30,7 +30,7 @@ TaskOption = Annotated[
     str | None,
     typer.Option(
         "--task",
-        help="Id of the environment, as for gym.make; MODULE:ID imports a module first, which registers it.",
+        help="Name of a task, or id as for gym.make; MODULE:ID imports a module first, which registers it.",
         show_default="dq_marine/StationKeeping-v0, or the preset's or run's",
     ),
 ]

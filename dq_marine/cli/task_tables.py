@@ -9,7 +9,7 @@ from typing import NamedTuple, get_args
 from rich.table import Table
 
 from dq_marine.envs.core.definition import TaskDefinition
-from dq_marine.envs.core.registry import registered_tasks, task_named
+from dq_marine.envs.core.registry import registered_tasks
 from dq_marine.physics.fields import Motion
 from dq_marine.task.protocol import never
 from dq_marine.vehicles import Vehicle, load_vehicle, vehicle_names
@@ -41,20 +41,6 @@ class TextTable(NamedTuple):
         for row in self.rows:
             table.add_row(*(cell.replace("`", "") for cell in row))
         return table
-
-
-def short_name(definition: TaskDefinition) -> str:
-    """Return a task's id without its namespace and version."""
-    return definition.id.rpartition("/")[2].rpartition("-v")[0]
-
-
-def task_called(name: str) -> TaskDefinition:
-    """Return a task by its id or its short name.
-
-    Raises:
-        InvalidInputError: there is none.
-    """
-    return next((task for task in registered_tasks() if short_name(task) == name), None) or task_named(name)
 
 
 def task_table() -> TextTable:

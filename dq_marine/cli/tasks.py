@@ -21,7 +21,8 @@ def tasks(
     markdown: Annotated[bool, typer.Option("--markdown", help="Tables as Markdown.")] = False,
 ) -> None:
     """List the tasks; or show a task's action, observation, reward, metrics and keywords."""
-    from dq_marine.cli.task_tables import description, task_called, task_table
+    from dq_marine.cli.task_tables import description, task_table
+    from dq_marine.envs.core.registry import task_called
 
     if task is None:
         tables: tuple[TextTable, ...] = (task_table(),)

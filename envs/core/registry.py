@@ -90,6 +90,26 @@ def task_named(task: TaskDefinition | str) -> TaskDefinition:
     return _TASKS[task]
 
 
+def short_name(definition: TaskDefinition) -> str:
+    """Return a task's id without its namespace and version."""
+    return definition.id.rpartition("/")[2].rpartition("-v")[0]
+
+
+def task_called(name: str) -> TaskDefinition:
+    """Return a task by its id, or by its short name in any case.
+
+    Raises:
+        InvalidInputError: there is none.
+    """
+    return task_named(full_id(name))
+
+
+def full_id(name: str) -> str:
+    """Return the id of the task of a short name; any other id as it is."""
+    meant = (task.id for task in registered_tasks() if short_name(task).lower() == name.lower())
+    return next(meant, name)
+
+
 def travelling(definition: TaskDefinition) -> TaskDefinition | TravellingTask:
     """Return what stands for a task on its way to another process; one that is not registered travels itself."""
     if _TASKS.get(definition.id) != definition:

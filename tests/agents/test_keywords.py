@@ -73,6 +73,12 @@ def test_unknown_environments_are_refused(identifier: str) -> None:
         known_keywords(identifier)
 
 
+@pytest.mark.parametrize("name", ["WaypointTracking", "waypointtracking", "dq_marine/WaypointTracking-v0"])
+def test_a_task_is_known_by_its_short_name(name: str) -> None:
+    changed = with_changes(settings(start_radius=3.0), {}, identifier=name)
+    assert changed == EnvironmentSettings(id="dq_marine/WaypointTracking-v0")
+
+
 def test_environments_of_others_are_refused() -> None:
     with pytest.raises(InvalidInputError, match="'CartPole-v1' is not one of dq_marine"):
         known_keywords("CartPole-v1")

@@ -182,7 +182,7 @@ def test_python_runs_the_package_as_the_command() -> None:
         ("fly --set vehicle=otter --vehicle otter", r"--vehicle otter and --set vehicle=\.\.\. both say it"),
         ("fly --set goal_position=[0,", r"--set goal_position=\[0,: the value is neither TOML nor JSON"),
         ("fly --run nowhere --preset ppo", r"--preset ppo and --run nowhere both say what to fly in"),
-        ("fly --task Nothing-v0", r"environment id = 'Nothing-v0'"),
+        ("fly --task Nothing-v0", r"environment id = 'Nothing-v0'.*There are .*dq_marine/StationKeeping-v0"),
         (
             "fly --trajectory x.xlsx",
             r"x\.xlsx has no ending that trajectories have; give one of \.csv, \.parquet",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, fields
+from dataclasses import MISSING, asdict, fields
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -85,9 +85,7 @@ def _from_dictionary(arguments: dict[str, Any]) -> tuple[Weather, ...]:
     kind = given.pop("kind", None)
     try:
         if kind == "wind":
-            windage = given.pop("windage", None)
-            hold = Windage(**windage) if isinstance(windage, Mapping) else windage
-            return (Wind(**given, windage=hold),)
+            return (_wind(given),)
         if kind == "sea":
             slow_drift = given.pop("slow_drift", False)
             sea = _sea(given)
@@ -97,10 +95,34 @@ def _from_dictionary(arguments: dict[str, Any]) -> tuple[Weather, ...]:
     raise InvalidInputError(f"weather has {shown(arguments)} of kind {shown(kind)}; give 'sea' or 'wind'")
 
 
+def _wind(given: dict[str, Any]) -> Wind:
+    _check_names("a wind", given, Wind)
+    windage = given.pop("windage", None)
+    if isinstance(windage, Mapping):
+        _check_names("a windage", windage, Windage)
+        windage = Windage(**windage)
+    return Wind(**given, windage=windage)
+
+
 def _sea(given: dict[str, Any]) -> Sea:
-    make, names = SPECTRA[one_of("spectrum", given.pop("spectrum", "jonswap"), SPECTRA)]
+    spectrum = one_of("spectrum", given.pop("spectrum", "jonswap"), SPECTRA)
+    make, names = SPECTRA[spectrum]
+    _check_names(f"a sea with the spectrum {spectrum!r}", {**given, "spectrum": spectrum}, Sea, make)
     own = {key: given.pop(key) for key in (*names, "gravity") if key in given}
     return Sea(make(**own), **given)
+
+
+def _check_names(what: str, given: Mapping[str, Any], *classes: Any) -> None:
+    """Refuse arguments that none of the classes takes, and a lack of those that they need."""
+    known = [one for kind in classes for one in fields(kind)]
+    names = {one.name for one in known}
+    needed = {one.name for one in known if one.default is MISSING}
+    wrong = sorted(shown(name) for name in given if name not in names)
+    lacking = sorted(needed - given.keys())
+    if wrong or lacking:
+        told = [f"does not take {', '.join(wrong)}"] if wrong else []
+        told += [f"lacks {', '.join(lacking)}"] if lacking else []
+        raise InvalidInputError(f"weather: {what} {' and '.join(told)}; it takes {', '.join(sorted(names))}")
 
 
 def plain_weather(weather: Sequence[Any]) -> list[dict[str, Any]]:
