@@ -13,7 +13,7 @@ from dq_marine.manoeuvres.run import Watch, unwatched
 from dq_marine.manoeuvres.table import shown
 from dq_marine.physics.radiation.build import CONSTANT
 from dq_marine.validation.trials import Expected, Outcome, Trial
-from dq_marine.vehicles import Vehicle
+from dq_marine.vehicles import Vehicle, load_vehicle
 
 
 class Verdict(StrEnum):
@@ -123,7 +123,8 @@ def compared(
         def told(phase: str, time: float, name: str = trial.name) -> None:
             watch(f"{name}, {phase}", time)
 
-        outcome = trial.run(vehicle, told, radiation)
+        flown = vehicle if trial.variant is None else load_vehicle(trial.variant)
+        outcome = trial.run(flown, told, radiation)
         lines += [Line(trial.name, _found(outcome, one, trial), one) for one in trial.expected]
         if outcome.result is not None:
             results.append((trial.name, outcome.result))

@@ -78,10 +78,12 @@ class TrialTable(Table):
 
     Attributes:
         name: of the trial, for people.
+        variant: of the vehicle that does it, by its name in the catalogue; None for the vehicle itself.
         expected: the numbers that are compared.
     """
 
     name: Annotated[str, Field(min_length=1)]
+    variant: str | None = None
     expected: Annotated[tuple[Expected, ...], Field(min_length=1)]
 
     @abstractmethod
