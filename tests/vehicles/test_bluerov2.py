@@ -1,4 +1,4 @@
-"""BlueROV2, Heavy and the RexROV with lift: lift is the momentum shed at the trailing end; both fly straight and level."""
+"""BlueROV2, Heavy and RexROV with lift: momentum shed at the trailing end; the first two fly straight and level."""
 
 import numpy as np
 import pytest
