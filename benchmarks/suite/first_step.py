@@ -1,4 +1,4 @@
-"""One process that makes something and steps it for the first time; run by `compile_times`, in a process of its own.
+"""One process that makes something and steps it for the first time; sections run it in a process of its own.
 
 Run, in the folder `benchmarks`: python -m suite.first_step NAME
 """
@@ -9,6 +9,11 @@ import json
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from dq_marine import Scene
 
 ID = "dq_marine/StationKeeping-v0"
 MANY = 64
@@ -59,13 +64,41 @@ FIRST_STEPS: dict[str, Callable[[], None]] = {
 }
 
 
+def paired_scene(pair: str, *, has: bool) -> Scene:
+    """Return a scene with lift or with radiation memory, or the same without."""
+    from dq_marine import Scene, load_vehicle
+    from suite.bodies import STEP
+
+    if pair == "memory":
+        return Scene("supply_vessel", step=STEP, radiation="memory" if has else "constant")
+    vehicle = load_vehicle("bluerov2_heavy")
+    bare = vehicle.damping.model_copy(update={"couplings": ()})
+    return Scene(vehicle if has else vehicle.model_copy(update={"damping": bare}), step=STEP)
+
+
+def paired_step(pair: str, *, has: bool, bodies: int) -> None:
+    """Step a body, or a batch of them."""
+    scene = paired_scene(pair, has=has)
+    body = scene.stepper() if bodies == 1 else scene.batch(bodies)
+    body.reset()
+    body.step()
+
+
+PAIRED_STEPS: dict[str, Callable[[], None]] = {
+    f"{pair} {'with' if has else 'without'} {name}": partial(paired_step, pair, has=has, bodies=bodies)
+    for pair in ("lift", "memory")
+    for has in (False, True)
+    for name, bodies in (("one body", 1), ("batch", MANY))
+}
+
+
 def main() -> None:
     """Time the first step of what is named, and how long `import dq_marine` takes before it."""
     start = time.perf_counter()
     import dq_marine  # noqa: F401
 
     imported = time.perf_counter()
-    FIRST_STEPS[sys.argv[1]]()
+    {**FIRST_STEPS, **PAIRED_STEPS}[sys.argv[1]]()
     done = time.perf_counter()
     print(json.dumps({"import_s": imported - start, "first_s": done - imported}))
 

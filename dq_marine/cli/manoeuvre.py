@@ -51,6 +51,13 @@ class ActuationName(StrEnum):
     THRUSTERS = "thrusters"
 
 
+class RadiationName(StrEnum):
+    """What `--radiation` takes."""
+
+    CONSTANT = "constant"
+    MEMORY = "memory"
+
+
 ActuationOption = Annotated[
     ActuationName | None,
     typer.Option(
@@ -62,6 +69,14 @@ ActuationOption = Annotated[
 ]
 ThrottleOption = Annotated[
     float, typer.Option("--throttle", help="Throttle of the approach, above 0 and up to 1.")
+]
+RadiationOption = Annotated[
+    RadiationName,
+    typer.Option(
+        "--radiation",
+        help="How the waves that the hull makes act on it: by constant added mass and damping; or with memory, by "
+        "those of all frequencies, where the vehicle's file has a table of them.",
+    ),
 ]
 StepOption = Annotated[
     float | None,
@@ -107,6 +122,7 @@ class Outputs:
         "dq-marine manoeuvre remus100 turning-circle",
         "dq-marine manoeuvre bluerov2_heavy zig-zag --angle 20",
         "dq-marine manoeuvre my_ship.toml stopping --order astern --json --csv stopping.csv",
+        "dq-marine manoeuvre supply_vessel decay --motion heave --radiation memory",
         "dq-marine manoeuvre rexrov decay --help",
     )
 )
@@ -133,6 +149,7 @@ def turning_circle(
     side: SideOption = SideName.STARBOARD,
     throttle: ThrottleOption = 1.0,
     actuation: ActuationOption = None,
+    radiation: RadiationOption = RadiationName.CONSTANT,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -148,7 +165,7 @@ def turning_circle(
         from dq_marine.manoeuvres import Conditions
         from dq_marine.manoeuvres import turning_circle as turn
 
-        conditions = Conditions(throttle=throttle, step=step, actuation=actuation)
+        conditions = Conditions(throttle, step, actuation, radiation.value)
         return turn(vehicle, helm=helm, side=side.value, conditions=conditions, watch=watch)
 
     _run_and_show(ctx, "turning-circle", run, Outputs(plot, no_plot, csv, json))
@@ -174,6 +191,7 @@ def zig_zag(
     ] = 4,
     throttle: ThrottleOption = 1.0,
     actuation: ActuationOption = None,
+    radiation: RadiationOption = RadiationName.CONSTANT,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -189,7 +207,7 @@ def zig_zag(
         from dq_marine.manoeuvres import Conditions
         from dq_marine.manoeuvres import zig_zag as zig
 
-        conditions = Conditions(throttle=throttle, step=step, actuation=actuation)
+        conditions = Conditions(throttle, step, actuation, radiation.value)
         return zig(
             vehicle,
             angle=math.radians(angle),
@@ -212,6 +230,7 @@ def spiral(
     ] = 6,
     throttle: ThrottleOption = 1.0,
     actuation: ActuationOption = None,
+    radiation: RadiationOption = RadiationName.CONSTANT,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -224,7 +243,7 @@ def spiral(
         from dq_marine.manoeuvres import Conditions
         from dq_marine.manoeuvres import spiral as turn_slowly
 
-        conditions = Conditions(throttle=throttle, step=step, actuation=actuation)
+        conditions = Conditions(throttle, step, actuation, radiation.value)
         return turn_slowly(vehicle, helm=helm, helms=helms, conditions=conditions, watch=watch)
 
     _run_and_show(ctx, "spiral", run, Outputs(plot, no_plot, csv, json))
@@ -235,6 +254,7 @@ def acceleration(
     ctx: typer.Context,
     throttle: Annotated[float, typer.Option("--throttle", help="Throttle, above 0 and up to 1.")] = 1.0,
     actuation: ActuationOption = None,
+    radiation: RadiationOption = RadiationName.CONSTANT,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -248,7 +268,7 @@ def acceleration(
         from dq_marine.manoeuvres import acceleration as accelerate
 
         return accelerate(
-            vehicle, conditions=Conditions(throttle=throttle, step=step, actuation=actuation), watch=watch
+            vehicle, conditions=Conditions(throttle, step, actuation, radiation.value), watch=watch
         )
 
     _run_and_show(ctx, "acceleration", run, Outputs(plot, no_plot, csv, json))
@@ -262,6 +282,7 @@ def stopping(
     ] = OrderName.ASTERN,
     throttle: ThrottleOption = 1.0,
     actuation: ActuationOption = None,
+    radiation: RadiationOption = RadiationName.CONSTANT,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -274,7 +295,7 @@ def stopping(
         from dq_marine.manoeuvres import Conditions
         from dq_marine.manoeuvres import stopping as stop
 
-        conditions = Conditions(throttle=throttle, step=step, actuation=actuation)
+        conditions = Conditions(throttle, step, actuation, radiation.value)
         return stop(vehicle, order=order.value, conditions=conditions, watch=watch)
 
     _run_and_show(ctx, "stopping", run, Outputs(plot, no_plot, csv, json))
@@ -295,6 +316,7 @@ def decay(
         ),
     ] = None,
     periods: Annotated[int, typer.Option("--periods", min=1, help="Number of periods to record.")] = 10,
+    radiation: RadiationOption = RadiationName.CONSTANT,
     step: StepOption = None,
     plot: PlotOption = None,
     no_plot: NoPlotOption = False,
@@ -309,7 +331,13 @@ def decay(
         angle = release is not None and motion is not MotionName.HEAVE
         start = math.radians(release) if angle and release is not None else release
         return release_it(
-            vehicle, motion=motion.value, release=start, periods=periods, step=step, watch=watch
+            vehicle,
+            motion=motion.value,
+            release=start,
+            periods=periods,
+            step=step,
+            radiation=radiation.value,
+            watch=watch,
         )
 
     _run_and_show(ctx, "decay", run, Outputs(plot, no_plot, csv, json))

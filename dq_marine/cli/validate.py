@@ -10,6 +10,7 @@ import typer
 from rich.markup import escape
 
 from dq_marine.cli.common import console, error_console, examples
+from dq_marine.cli.manoeuvre import RadiationName, RadiationOption
 
 if TYPE_CHECKING:
     from dq_marine.validation import Comparison, References
@@ -20,6 +21,7 @@ EXAMPLES = examples(
     "dq-marine validate --out validation",
     "dq-marine validate my_ship.toml --references my_trials.toml",
     "dq-marine validate otter --json",
+    "dq-marine validate supply_vessel --radiation memory",
 )
 
 
@@ -40,6 +42,7 @@ def validate(
         Path | None, typer.Option("--out", help="Folder for a page with pictures; needs Matplotlib.")
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")] = False,
+    radiation: RadiationOption = RadiationName.CONSTANT,
 ) -> None:
     """Hold vehicles against trials and against models that nobody here wrote: a verdict for each number.
 
@@ -51,17 +54,20 @@ def validate(
     "zig-zag", "stopping" or "decay") and what that takes, and in it [[trial.expected]] with quantity, value and within,
     or at_least and at_most, and source. Those of the catalogue, in dq_marine/validation/references, are examples.
     """
+    from dq_marine.physics.radiation.build import CONSTANT, checked_radiation
     from dq_marine.validation import Verdict
 
     comparisons, silences = [], {}
     chosen = _chosen(vehicles or [], references)
+    for _, vehicle, _ in chosen:
+        checked_radiation(radiation.value, vehicle)
     if out is not None:
         from dq_marine.util.files import with_folder
         from dq_marine.validation.page import NAME
 
         with_folder(out / NAME)  # before what takes minutes
     for name, vehicle, own in chosen:
-        comparisons.append(_compared(name, vehicle, own))
+        comparisons.append(_compared(name, vehicle, own, radiation.value))
         silences[name] = own.silence
         if not json:
             _show(comparisons[-1], own.silence)
@@ -74,6 +80,7 @@ def validate(
 
         made_with = ", ".join(f"{library} {number}" for library, number in versions().items())
         made_with += f", commit {found}" if (found := commit("dq_marine")) else ""
+        made_with += "" if radiation == CONSTANT else f", radiation {radiation.value}"
         page = write_page(comparisons, silences, made_with, out)
         error_console.print(f"Wrote {page}", soft_wrap=True, highlight=False)
     if any(line.verdict is Verdict.DIFFERS for one in comparisons for line in one.lines):
@@ -95,7 +102,7 @@ def _chosen(names: list[str], references: Path | None) -> list[tuple[str, Vehicl
     return [(names[0], load_vehicle(names[0]), load_references(references))]
 
 
-def _compared(name: str, vehicle: Vehicle, references: References) -> Comparison:
+def _compared(name: str, vehicle: Vehicle, references: References, radiation: str) -> Comparison:
     from dq_marine.validation import compared
 
     title = escape(vehicle.name)
@@ -105,6 +112,7 @@ def _compared(name: str, vehicle: Vehicle, references: References) -> Comparison
             vehicle,
             references.trial,
             lambda phase, time: status.update(f"{title}: {escape(phase)}, {time:.4g} s"),
+            radiation,
         )
 
 

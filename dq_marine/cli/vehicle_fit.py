@@ -34,10 +34,10 @@ def fit(
         typer.Option(
             "--fit",
             help="What is free: added_mass (its diagonal, couplings in proportion) or added_mass_full, linear, "
-            "quadratic, couplings (lift), cross_flow, gains (of thrusters and fins), current (north and east, the "
-            "same throughout).",
+            "quadratic, couplings (lift), cross_flow, manoeuvring (the polynomials of an MMG hull), gains (of "
+            "thrusters and fins), current (north and east, the same throughout).",
         ),
-    ] = "added_mass,linear,quadratic,couplings,cross_flow",
+    ] = "added_mass,linear,quadratic,couplings,cross_flow,manoeuvring",
     out: Annotated[
         Path | None, typer.Option("--out", help="Vehicle file to write.", show_default="VEHICLE_fitted.toml")
     ] = None,

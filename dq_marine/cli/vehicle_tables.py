@@ -115,7 +115,7 @@ def _steps(sheet: Sheet) -> list[tuple[str, str]]:
         ("largest step for the restoring forces", f"{_number(sheet.restoring_step)} s"),
         (f"largest step for translation {ahead}", f"{_number(sheet.translation_step)} s"),
         ("largest step: a tenth of it is accurate", f"{_number(sheet.largest_step)} s"),
-        ("the file's numbers hold for", ", ".join(sheet.validity) or "not known"),
+        *(("the file's numbers hold for", line) for line in sheet.validity or ("not known",)),
         *(("radiation memory", line) for line in sheet.radiation_memory),
     ]
 

@@ -44,8 +44,11 @@ def vehicles(ctx: typer.Context) -> None:
         return
     from dq_marine.cli.vehicle_tables import catalogue_table
     from dq_marine.vehicles import load_vehicle, vehicle_names
+    from dq_marine.vehicles.variants import variant_names
 
     console.print(catalogue_table({name: load_vehicle(name) for name in vehicle_names()}))
+    for name in variant_names():
+        console.print(f"Variant {name}: {load_vehicle(name).name}", highlight=False, markup=False)
 
 
 @app.command(epilog=examples("dq-marine vehicles check my_vehicle.toml"))

@@ -169,7 +169,7 @@ class SegmentedLog:
 
 
 def _all_parameters(vehicle: Vehicle) -> tuple[Parameter, ...]:
-    groups = ["linear", "quadratic", "couplings", "cross_flow", "gains", CURRENT]
+    groups = ["linear", "quadratic", "couplings", "cross_flow", "manoeuvring", "gains", CURRENT]
     if np.linalg.eigvalsh(vehicle.added_mass_matrix).min() >= 0.0:
         groups.append("added_mass_full")
     return parameters_of(vehicle, groups)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.identification.hull_polynomials import hull_changed, hull_coefficient, hull_places
 from dq_marine.vehicles import Vehicle
 from dq_marine.vehicles.model import MOTIONS
 
@@ -23,10 +24,20 @@ Content = dict[str, Any]
 CURRENT = "current"
 """The group of the water's velocity, north and east: no number of the vehicle, see `identification.model`."""
 
-GROUPS = ("added_mass", "added_mass_full", "linear", "quadratic", "couplings", "cross_flow", "gains", CURRENT)
+GROUPS = (
+    "added_mass",
+    "added_mass_full",
+    "linear",
+    "quadratic",
+    "couplings",
+    "cross_flow",
+    "manoeuvring",
+    "gains",
+    CURRENT,
+)
 """What `--fit` takes."""
 
-DEFAULT_GROUPS = ("added_mass", "linear", "quadratic", "couplings", "cross_flow")
+DEFAULT_GROUPS = ("added_mass", "linear", "quadratic", "couplings", "cross_flow", "manoeuvring")
 """All that one log can tell at once: gains, masses and damping grow together, unless some are known."""
 
 LARGEST_THETA = 2.3
@@ -119,6 +130,8 @@ def _parameters(vehicle: Vehicle, group: str) -> list[Parameter]:
             for number, drag in enumerate(vehicle.cross_flow)
             if drag.section_drag
         ]
+    if group == "manoeuvring":
+        return [Parameter(group, label, place) for label, place in hull_places(vehicle)]
     if group == CURRENT:
         return [
             Parameter(group, f"current, {name}", (place,)) for place, name in enumerate(("north", "east"))
@@ -174,6 +187,8 @@ def vehicle_with(vehicle: Vehicle, parameters: Iterable[Parameter], theta: Itera
             damping["couplings"] = _couplings(vehicle, values)
         elif group == "cross_flow":
             changed["cross_flow"] = _cross_flow(vehicle, values)
+        elif group == "manoeuvring" and vehicle.manoeuvring is not None:
+            changed["manoeuvring"] = hull_changed(vehicle.manoeuvring, values)
         else:
             changed |= _actuation(vehicle, values)
     if damping:
@@ -258,6 +273,8 @@ def _quantity(vehicle: Vehicle, parameter: Parameter) -> Quantity:
         return Quantity(parameter.label, "SI", vehicle.damping.couplings[i].coefficient)
     if group == "cross_flow":
         return Quantity(parameter.label, "1", vehicle.cross_flow[i].section_drag)
+    if group == "manoeuvring" and vehicle.manoeuvring is not None:
+        return Quantity(parameter.label, "1", hull_coefficient(vehicle.manoeuvring, index))
     actuators = vehicle.actuators
     propulsion = (*actuators.thrusters, *actuators.azimuths)
     if i < len(propulsion):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from dq_marine.checks import finite_number, one_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.actuators.build import ACTUATIONS
+from dq_marine.physics.radiation.build import CONSTANT, RADIATIONS
 
 LEAST_STEP = 1e-5
 """Of the integrator [s]: with a smaller one, minutes of a manoeuvre take hours."""
@@ -21,6 +22,8 @@ class Conditions:
         step: of the integrator [s]; None for one that suits the vehicle.
         actuation: what carries out throttle and helm: "wrench", a force and a moment on the body, or "thrusters", the
             vehicle's thrusters, azimuths and fins; None for these where its file has them.
+        radiation: how the waves that the hull makes act on it: "constant", or "memory" where its file has added mass
+            and damping by frequency. See `dq_marine.Scene`.
 
     Raises:
         InvalidInputError: a value is wrong.
@@ -29,6 +32,7 @@ class Conditions:
     throttle: float = 1.0
     step: float | None = None
     actuation: str | None = None
+    radiation: str = CONSTANT
 
     def __post_init__(self) -> None:
         fraction("throttle", self.throttle)
@@ -36,6 +40,7 @@ class Conditions:
             finite_number("step", self.step, least=LEAST_STEP)
         if self.actuation is not None:
             one_of("actuation", self.actuation, ACTUATIONS)
+        one_of("radiation", self.radiation, RADIATIONS)
 
 
 def fraction(name: str, value: float) -> float:

@@ -18,7 +18,8 @@ from dq_marine.manoeuvres.quantities import Quantity, Result
 from dq_marine.manoeuvres.recorder import Recorder, sample_of
 from dq_marine.manoeuvres.run import WATCH_EVERY, Watch, unwatched
 from dq_marine.manoeuvres.series import Series
-from dq_marine.manoeuvres.setup import ACCURATE_STEP, rounded_down, running_depth
+from dq_marine.manoeuvres.setup import ACCURATE_STEP, radiation_setting, rounded_down, running_depth
+from dq_marine.physics.radiation.build import CONSTANT
 from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import Vehicle, vehicle_sheet
 
@@ -95,6 +96,7 @@ def decay(
     release: float | None = None,
     periods: int = 10,
     step: float | None = None,
+    radiation: str = CONSTANT,
     watch: Watch = unwatched,
 ) -> Decay:
     """Run a free decay test, without thrust, in still water.
@@ -105,10 +107,12 @@ def decay(
         release: from where, above 0 [rad, or m of heave]; None for 10 degrees, or a twentieth of the length.
         periods: for how many of its own it is watched, at most.
         step: of the integrator [s]; None for one that suits the vehicle.
+        radiation: "constant", or "memory" where the vehicle's file has added mass and damping by frequency; the linear
+            equations have constant coefficients all the same.
         watch: told of the progress.
 
     Raises:
-        InvalidInputError: a value is wrong, or nothing brings the motion back.
+        InvalidInputError: a value is wrong, nothing brings the motion back, or there is no such radiation.
         StepNotSolvableError: the integrator refused a step.
     """
     axis = _checked_axis(vehicle, motion)
@@ -117,7 +121,8 @@ def decay(
     period = 2.0 * math.pi / natural_frequency(vehicle, axis)
     if step is None:
         step = rounded_down(min(period / SAMPLES, ACCURATE_STEP * vehicle_sheet(vehicle).largest_step))
-    scene = Scene(vehicle, step=finite_number("step", step, least=period / MOST_SAMPLES))
+    step = finite_number("step", step, least=period / MOST_SAMPLES)
+    scene = Scene(vehicle, step=step, radiation=radiation)
     series = released(scene, axis, release, periods * period, watch)
     displacement = displacement_of(series, axis)
     found = decrement_of(series.time, displacement, GONE * release)
@@ -128,6 +133,7 @@ def decay(
         settings={
             "motion": motion,
             **({"release_m": release} if axis == 2 else {"release_deg": math.degrees(release)}),
+            **radiation_setting(radiation),
         },
         step=scene.step,
         series=series,

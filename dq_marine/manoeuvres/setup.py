@@ -11,6 +11,7 @@ from dq_marine.manoeuvres.conditions import Conditions
 from dq_marine.manoeuvres.rudder_steering import RudderSteering
 from dq_marine.manoeuvres.steering import SURGE, Steering, WrenchSteering
 from dq_marine.manoeuvres.whole_ship_steering import WholeShipSteering
+from dq_marine.physics.radiation.build import CONSTANT
 from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import Vehicle, vehicle_sheet
 from dq_marine.vehicles.analysis.sheet import terminal_speed
@@ -51,7 +52,8 @@ class Setup:
     @property
     def settings(self) -> dict[str, float | str]:
         """The conditions that a result names."""
-        return {"throttle": self.conditions.throttle, "actuation": self.scene.actuation}
+        own = radiation_setting(self.scene.radiation)
+        return {"throttle": self.conditions.throttle, "actuation": self.scene.actuation, **own}
 
     @property
     def length(self) -> float:
@@ -89,6 +91,11 @@ class Setup:
             )
 
 
+def radiation_setting(radiation: str) -> dict[str, str]:
+    """Return what a result says of radiation: nothing where it is constant, as usual."""
+    return {} if radiation == CONSTANT else {"radiation": radiation}
+
+
 def running_depth(vehicle: Vehicle) -> float:
     """Return the depth of the body origin [m]: at rest of a vessel that floats, well below the surface of others."""
     if vehicle.hydrostatics is not None:
@@ -100,13 +107,13 @@ def prepared(vehicle: Vehicle, conditions: Conditions) -> Setup:
     """Return a vehicle made ready to be steered.
 
     Raises:
-        InvalidInputError: it cannot be driven ahead or turned, nothing damps it in surge, it has no such throttle, or
-            the step is too large.
+        InvalidInputError: it cannot be driven ahead or turned, nothing damps it in surge, it has no such throttle, its
+            file has no radiation by frequency and memory is asked for, or the step is too large.
     """
     actuation = conditions.actuation or ("thrusters" if vehicle.channels else "wrench")
     speed = full_speed(vehicle, actuation)
     step, samples = sampling(vehicle, speed, conditions.step)
-    scene = Scene(vehicle, step=step, actuation=actuation)
+    scene = Scene(vehicle, step=step, actuation=actuation, radiation=conditions.radiation)
     setup = Setup(scene, conditions, steering_of(vehicle, actuation, speed), speed, samples)
     setup.check_throttle(conditions.throttle)
     return setup

@@ -11,8 +11,9 @@ from dq_marine.manoeuvres import Result
 from dq_marine.manoeuvres.quantities import Quantity
 from dq_marine.manoeuvres.run import Watch, unwatched
 from dq_marine.manoeuvres.table import shown
+from dq_marine.physics.radiation.build import CONSTANT
 from dq_marine.validation.trials import Expected, Outcome, Trial
-from dq_marine.vehicles import Vehicle
+from dq_marine.vehicles import Vehicle, load_vehicle
 
 
 class Verdict(StrEnum):
@@ -101,11 +102,18 @@ class Comparison(NamedTuple):
     results: tuple[tuple[str, Result], ...]
 
 
-def compared(name: str, vehicle: Vehicle, trials: Sequence[Trial], watch: Watch = unwatched) -> Comparison:
-    """Return a vehicle beside its references, all trials run.
+def compared(
+    name: str,
+    vehicle: Vehicle,
+    trials: Sequence[Trial],
+    watch: Watch = unwatched,
+    radiation: str = CONSTANT,
+) -> Comparison:
+    """Return a vehicle beside its references, all trials run, with constant radiation or with memory.
 
     Raises:
-        InvalidInputError: a trial cannot be done by this vehicle, or does not give what is expected of it.
+        InvalidInputError: a trial cannot be done by this vehicle, or does not give what is expected of it, or its file
+            has no radiation by frequency and memory is asked for.
         StepNotSolvableError: the integrator refused a step.
     """
     lines: list[Line] = []
@@ -115,7 +123,8 @@ def compared(name: str, vehicle: Vehicle, trials: Sequence[Trial], watch: Watch 
         def told(phase: str, time: float, name: str = trial.name) -> None:
             watch(f"{name}, {phase}", time)
 
-        outcome = trial.run(vehicle, told)
+        flown = vehicle if trial.variant is None else load_vehicle(trial.variant)
+        outcome = trial.run(flown, told, radiation)
         lines += [Line(trial.name, _found(outcome, one, trial), one) for one in trial.expected]
         if outcome.result is not None:
             results.append((trial.name, outcome.result))

@@ -15,6 +15,7 @@ from dq_marine.manoeuvres.quantities import Quantity
 from dq_marine.manoeuvres.run import Watch
 from dq_marine.manoeuvres.setup import ACCURATE_STEP, rounded_down, running_depth
 from dq_marine.physics.fields import Vector3, Vector6
+from dq_marine.physics.radiation.build import CONSTANT
 from dq_marine.simulation.one_body import OneBody
 from dq_marine.simulation.scene import Scene
 from dq_marine.vehicles import Vehicle, vehicle_sheet
@@ -37,12 +38,14 @@ class Drive(NamedTuple):
         commands: of actuators by the names of their channels.
         current: of the water in NED [m/s].
         duration: of the run [s].
+        radiation: "constant", or "memory".
     """
 
     wrench: Vector6
     commands: dict[str, float]
     current: Vector3
     duration: float
+    radiation: str = CONSTANT
 
 
 def steady_run(vehicle: Vehicle, drive: Drive, watch: Watch) -> tuple[Quantity, ...]:
@@ -54,14 +57,15 @@ def steady_run(vehicle: Vehicle, drive: Drive, watch: Watch) -> tuple[Quantity, 
         watch: told of the progress.
 
     Raises:
-        InvalidInputError: a command is of no channel of the vehicle.
+        InvalidInputError: a command is of no channel of the vehicle, or it has no such radiation.
         StepNotSolvableError: the integrator refused a step.
     """
     command = _commands(vehicle, drive.commands)
     step = rounded_down(min(ACCURATE_STEP * vehicle_sheet(vehicle).largest_step, LARGEST_STEP))
     steps = max(1, math.ceil(drive.duration / SPANS / step - 1e-9))
     actuation = "thrusters" if drive.commands else "wrench"
-    body = Scene(vehicle, step=step, actuation=actuation, current=drive.current).stepper()
+    scene = Scene(vehicle, step=step, actuation=actuation, current=drive.current, radiation=drive.radiation)
+    body = scene.stepper()
     body.reset((0.0, 0.0, running_depth(vehicle)))
     rows = []
     for _ in range(math.ceil(drive.duration / (steps * step) - 1e-9)):

@@ -14,6 +14,7 @@ from dq_marine.manoeuvres.quantities import Quantity
 from dq_marine.manoeuvres.run import Watch
 from dq_marine.physics.fields import Positive, Table, Vector3, Vector6
 from dq_marine.physics.implausible import Implausible
+from dq_marine.physics.radiation.build import CONSTANT
 from dq_marine.validation.steady_run import Drive, steady_run
 from dq_marine.vehicles import Vehicle
 
@@ -77,15 +78,17 @@ class TrialTable(Table):
 
     Attributes:
         name: of the trial, for people.
+        variant: of the vehicle that does it, by its name in the catalogue; None for the vehicle itself.
         expected: the numbers that are compared.
     """
 
     name: Annotated[str, Field(min_length=1)]
+    variant: str | None = None
     expected: Annotated[tuple[Expected, ...], Field(min_length=1)]
 
     @abstractmethod
-    def run(self, vehicle: Vehicle, watch: Watch) -> Outcome:
-        """Return what a vehicle does in this trial.
+    def run(self, vehicle: Vehicle, watch: Watch, radiation: str = CONSTANT) -> Outcome:
+        """Return what a vehicle does in this trial, with constant radiation or with memory.
 
         Raises:
             InvalidInputError: the vehicle cannot do it.
@@ -109,9 +112,9 @@ class SteadyTrial(TrialTable):
     current: Vector3 = (0.0, 0.0, 0.0)
     duration: Annotated[float, Field(gt=0, le=LONGEST)]
 
-    def run(self, vehicle: Vehicle, watch: Watch) -> Outcome:
+    def run(self, vehicle: Vehicle, watch: Watch, radiation: str = CONSTANT) -> Outcome:
         """Return speeds through the water, attitude, rates and way at the end."""
-        drive = Drive(self.wrench, self.commands, self.current, self.duration)
+        drive = Drive(self.wrench, self.commands, self.current, self.duration, radiation)
         return Outcome(steady_run(vehicle, drive, watch))
 
 
@@ -121,9 +124,9 @@ class AccelerationTrial(TrialTable):
     manoeuvre: Literal["acceleration"]
     throttle: Share = 1.0
 
-    def run(self, vehicle: Vehicle, watch: Watch) -> Outcome:
+    def run(self, vehicle: Vehicle, watch: Watch, radiation: str = CONSTANT) -> Outcome:
         """Return top speed, times and distance."""
-        conditions = Conditions(throttle=self.throttle)
+        conditions = Conditions(self.throttle, radiation=radiation)
         return _outcome(manoeuvres.acceleration(vehicle, conditions=conditions, watch=watch))
 
 
@@ -135,9 +138,9 @@ class TurningCircleTrial(TrialTable):
     side: Literal["starboard", "port"] = "starboard"
     throttle: Share = 1.0
 
-    def run(self, vehicle: Vehicle, watch: Watch) -> Outcome:
+    def run(self, vehicle: Vehicle, watch: Watch, radiation: str = CONSTANT) -> Outcome:
         """Return advance, transfer, diameters and the steady turn."""
-        conditions = Conditions(throttle=self.throttle)
+        conditions = Conditions(self.throttle, radiation=radiation)
         return _outcome(
             manoeuvres.turning_circle(
                 vehicle, helm=self.helm, side=self.side, conditions=conditions, watch=watch
@@ -154,7 +157,7 @@ class ZigZagTrial(TrialTable):
     side: Literal["starboard", "port"] = "starboard"
     throttle: Share = 1.0
 
-    def run(self, vehicle: Vehicle, watch: Watch) -> Outcome:
+    def run(self, vehicle: Vehicle, watch: Watch, radiation: str = CONSTANT) -> Outcome:
         """Return overshoots and times."""
         return _outcome(
             manoeuvres.zig_zag(
@@ -162,7 +165,7 @@ class ZigZagTrial(TrialTable):
                 angle=math.radians(self.angle_deg),
                 helm=self.helm,
                 side=self.side,
-                conditions=Conditions(throttle=self.throttle),
+                conditions=Conditions(self.throttle, radiation=radiation),
                 watch=watch,
             )
         )
@@ -175,9 +178,9 @@ class StoppingTrial(TrialTable):
     order: Literal["astern", "off"] = "astern"
     throttle: Share = 1.0
 
-    def run(self, vehicle: Vehicle, watch: Watch) -> Outcome:
+    def run(self, vehicle: Vehicle, watch: Watch, radiation: str = CONSTANT) -> Outcome:
         """Return time, track reach and head reach."""
-        conditions = Conditions(throttle=self.throttle)
+        conditions = Conditions(self.throttle, radiation=radiation)
         return _outcome(manoeuvres.stopping(vehicle, order=self.order, conditions=conditions, watch=watch))
 
 
@@ -188,12 +191,14 @@ class DecayTrial(TrialTable):
     motion: Literal["roll", "pitch", "heave"]
     release: Positive | None = None
 
-    def run(self, vehicle: Vehicle, watch: Watch) -> Outcome:
+    def run(self, vehicle: Vehicle, watch: Watch, radiation: str = CONSTANT) -> Outcome:
         """Return period and damping."""
         release = self.release
         if release is not None and self.motion != "heave":
             release = math.radians(release)
-        return _outcome(manoeuvres.decay(vehicle, motion=self.motion, release=release, watch=watch))
+        return _outcome(
+            manoeuvres.decay(vehicle, motion=self.motion, release=release, radiation=radiation, watch=watch)
+        )
 
 
 Trial: TypeAlias = Annotated[

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import os
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,9 @@ from dq_marine.errors import InvalidInputError, VehicleFileError
 from dq_marine.physics.waves.radiation import read_radiation
 from dq_marine.vehicles.model import Vehicle
 from dq_marine.vehicles.validation import validated
+from dq_marine.vehicles.variants import read_variant, variant_names, varied
+
+NOTHING: Mapping[str, Any] = {}
 
 _FOLDER = Path(__file__).parent / "catalogue"
 
@@ -39,8 +43,8 @@ def load_vehicle(vehicle: Vehicle | str | os.PathLike[str]) -> Vehicle:
     """Return a vehicle: one of the catalogue by name, one from a TOML file, or the one given.
 
     Args:
-        vehicle: a catalogue name such as "bluerov2_heavy", the path of a file ending in `.toml`, or a
-            `Vehicle`.
+        vehicle: a catalogue name such as "bluerov2_heavy", the name of a variant such as "bluerov2_published", the path
+            of a file ending in `.toml`, or a `Vehicle`.
 
     Raises:
         InvalidInputError: no such name or file.
@@ -56,13 +60,16 @@ def load_vehicle(vehicle: Vehicle | str | os.PathLike[str]) -> Vehicle:
     text = os.fspath(vehicle)
     if text in vehicle_names():
         return _read(catalogue_file(text))
+    if text in variant_names():
+        base, changes = read_variant(text)
+        return _read(catalogue_file(base), changes)
     path = existing_file("vehicle", text)
     if path is not None:
         return _read(path)
     kind = "file" if text.endswith(".toml") or os.sep in text else "vehicle"
     raise InvalidInputError(
-        f"there is no {kind} {shown(text)}; the catalogue holds {', '.join(vehicle_names())}, and the path of an "
-        "existing .toml file is taken too"
+        f"there is no {kind} {shown(text)}; the catalogue holds {', '.join(vehicle_names())}, with the variants "
+        f"{', '.join(variant_names())}, and the path of an existing .toml file is taken too"
     )
 
 
@@ -74,7 +81,7 @@ def plain_vehicle(vehicle: Vehicle) -> Any:
     return vehicle.model_dump(mode="json", exclude_defaults=True)
 
 
-def _read(path: Path) -> Vehicle:
+def _read(path: Path, changes: Mapping[str, Any] = NOTHING) -> Vehicle:
     try:
         content = tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
@@ -89,4 +96,4 @@ def _read(path: Path) -> Vehicle:
             content["radiation"] = read_radiation(path.parent / beside)
         except (OSError, ValueError, csv.Error) as error:
             raise VehicleFileError(f"{path}: radiation = {beside!r} cannot be read: {error}") from error
-    return validated(content, str(path), VehicleFileError)
+    return validated(varied(content, changes), str(path), VehicleFileError)

@@ -16,6 +16,9 @@ UNDER_WAY = 0.2
 """Share of the largest speed from which a drift angle means something: slower, a vehicle manoeuvres in place."""
 
 
+Text = Annotated[str, Field(min_length=1)]
+
+
 class Validity(Table):
     """The motions and seas that a file's numbers were measured or computed for; what is left out is not known.
 
@@ -23,13 +26,17 @@ class Validity(Table):
         speed: largest through the water [m/s].
         drift_angle_deg: largest angle between the x axis and the way through the water, under way [deg].
         wave_height: largest significant wave height [m].
-        source: of these limits.
+        source: of the limits that have none of their own.
+        drift_angle_source: of that of the drift angle; without a limit, why there is none.
+        wave_height_source: of that of the wave height; without a limit, why there is none.
     """
 
     speed: Positive | None = None
     drift_angle_deg: Annotated[float, Field(gt=0, le=90)] | None = None
     wave_height: Positive | None = None
-    source: Annotated[str, Field(min_length=1)]
+    source: Text
+    drift_angle_source: Text | None = None
+    wave_height_source: Text | None = None
 
     @model_validator(mode="after")
     def _says_something(self) -> Self:
@@ -47,13 +54,17 @@ class Validity(Table):
         return self
 
     def limits(self) -> tuple[str, ...]:
-        """Return the limits, each for reading."""
+        """Return the limits, or why there is none, each for reading."""
         named = (
-            ("through the water up to", self.speed, "m/s"),
-            ("drift up to", self.drift_angle_deg, "deg"),
-            ("significant wave heights up to", self.wave_height, "m"),
+            ("through the water", self.speed, "m/s", None),
+            ("drift", self.drift_angle_deg, "deg", self.drift_angle_source),
+            ("significant wave heights", self.wave_height, "m", self.wave_height_source),
         )
-        return tuple(f"{name} {value:g} {unit}" for name, value, unit in named if value is not None)
+        return tuple(
+            f"{name} without a limit: {why}" if value is None else f"{name} up to {value:g} {unit}"
+            for name, value, unit, why in named
+            if value is not None or why is not None
+        )
 
     def notes(self, through_water: NDArray[np.float64]) -> tuple[str, ...]:
         """Return what is to be said of a run that left the limits.
@@ -76,6 +87,6 @@ class Validity(Table):
             if widest > self.drift_angle_deg:
                 notes.append(
                     f"It drifted by up to {widest:.0f} deg under way; its numbers hold up to "
-                    f"{self.drift_angle_deg:g} deg ({self.source})."
+                    f"{self.drift_angle_deg:g} deg ({self.drift_angle_source or self.source})."
                 )
         return tuple(notes)

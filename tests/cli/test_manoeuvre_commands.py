@@ -69,6 +69,14 @@ def test_pictures_are_the_same_each_time(run, tmp_path, ending):
         ((VEHICLE, "zig-zag", "--angle", "120"), "not below pi/2"),
         ((VEHICLE, "decay", "--motion", "heave"), "only vessels that float"),
         ((VEHICLE, "stopping", "--plot", "stop.bmp"), r"end it with one of \.png, \.svg, \.pdf"),
+        (
+            (VEHICLE, "decay", "--radiation", "memory"),
+            'no added mass and damping by frequency.*radiation="con',
+        ),
+        (
+            (VEHICLE, "spiral", "--radiation", "memory"),
+            'no added mass and damping by frequency.*radiation="con',
+        ),
         ((VEHICLE, "stopping", "--step", "-1"), "step = -1; give at least 1e-05"),
         ((VEHICLE, "zig-zag", "--step", "1e-308"), "step = 1e-308; give at least 1e-05"),
     ],

@@ -51,7 +51,7 @@ def test_mass_and_damping_stay_positive(name, groups):
 @pytest.mark.parametrize("name", vehicle_names())
 def test_zero_is_the_file(name):
     nominal = load_vehicle(name)
-    groups = [group for group in (*SCALED, "gains") if _has(nominal, group)]
+    groups = [group for group in (*SCALED, "manoeuvring", "gains") if _has(nominal, group)]
     parameters = parameters_of(nominal, groups)
     vehicle = vehicle_with(nominal, parameters, np.zeros(len(parameters)))
     assert vehicle.mass_matrix == pytest.approx(nominal.mass_matrix, rel=1e-12)
@@ -59,6 +59,7 @@ def test_zero_is_the_file(name):
     assert vehicle.quadratic_damping == pytest.approx(nominal.quadratic_damping)
     assert vehicle.damping_couplings == pytest.approx(nominal.damping_couplings)
     assert vehicle.actuators == nominal.actuators
+    assert vehicle.manoeuvring == nominal.manoeuvring
     labels = [parameter.label for parameter in parameters]
     assert len(set(labels)) == len(labels)
 
@@ -70,9 +71,10 @@ def _has(vehicle, group):
         return False
 
 
-def test_each_parameter_moves_its_own_number():
-    nominal = load_vehicle("remus100")
-    parameters = parameters_of(nominal, (*SCALED, "gains"))
+@pytest.mark.parametrize("name", ["remus100", "kvlcc2_l7"])
+def test_each_parameter_moves_its_own_number(name):
+    nominal = load_vehicle(name)
+    parameters = parameters_of(nominal, (*SCALED, "manoeuvring", "gains"))
     before = [one.value for one in quantities_of(nominal, parameters)]
     for place, parameter in enumerate(parameters):
         theta = np.zeros(len(parameters))
@@ -80,6 +82,26 @@ def test_each_parameter_moves_its_own_number():
         after = [one.value for one in quantities_of(vehicle_with(nominal, parameters, theta), parameters)]
         moved = np.flatnonzero(~np.isclose(before, after, rtol=1e-9))
         assert moved.tolist() == [place], parameter.label
+
+
+def test_a_hull_resists_surge_sway_and_yaw_whatever_is_tried():
+    nominal = load_vehicle("kvlcc2_l7")
+    parameters = parameters_of(nominal, ["manoeuvring"])
+    assert len(parameters) == 17
+
+    @settings(max_examples=100, derandomize=True)
+    @given(THETAS)
+    def resists(thetas):
+        try:
+            hull = vehicle_with(nominal, parameters, thetas[:17]).manoeuvring.hull
+        except ValueError as refusal:
+            assert re.search("drives (sway|yaw|surge) instead of resisting it", str(refusal))
+            return
+        assert hull.surge.resistance > 0.0
+        assert hull.sway.v < 0.0
+        assert hull.yaw.r < 0.0
+
+    resists()
 
 
 def test_a_full_added_mass_reaches_any_coupling():

@@ -7,12 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
+from scipy.optimize import newton
 from setups import mass_of, righted_sphere, sphere
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.manoeuvres import decay
 from dq_marine.manoeuvres.decrement import decrement_of
+from dq_marine.manoeuvres.linear_modes import stiffness_matrix
 from dq_marine.physics.hydrostatics.restoring import natural_periods
+from dq_marine.physics.radiation.build import memory_term
 from dq_marine.vehicles import load_vehicle
 
 SMALL = math.radians(1.0)
@@ -101,3 +104,23 @@ def test_wrong_arguments_are_refused(arguments, message):
 def test_a_vehicle_without_a_righting_moment_is_refused():
     with pytest.raises(InvalidInputError, match="put the centre of mass below the centre of buoyancy"):
         decay(sphere(), motion="roll")
+
+
+def test_with_radiation_memory_the_roll_is_the_pole_of_the_whole_linear_system():
+    """A root s of det(s^2 M + s D + s H(s) + G), H the radiation of all frequencies: no step is in it."""
+    vessel = load_vehicle("supply_vessel")
+    term, viscous = memory_term(vessel, "memory"), vessel.linear_damping_without_waves
+    stiffness = stiffness_matrix(vessel)
+    axes, scale = np.ix_([1, 3, 5], [1, 3, 5]), np.sqrt(np.diag(term.mass_matrix)[[1, 3, 5]])
+
+    def determinant(s):
+        radiation = term.model.transfer(np.array([-1j * s]))[0]
+        whole = (s * s * term.mass_matrix + s * (viscous + radiation) + stiffness)[axes]
+        return np.linalg.det(whole / np.outer(scale, scale))
+
+    pole = newton(determinant, complex(-0.05, 0.6), x1=complex(-0.04, 0.61), tol=1e-10)
+    result = decay(vessel, motion="roll", release=math.radians(0.1), periods=6, radiation="memory")
+    assert result.settings["radiation"] == "memory"
+    assert result.decrement.period == pytest.approx(2.0 * math.pi / pole.imag, rel=2e-3)
+    assert result.decrement.damping_ratio == pytest.approx(-pole.real / abs(pole), rel=0.03)
+    assert "radiation" not in decay(vessel, motion="roll", periods=1).settings

@@ -127,6 +127,10 @@ def test_all_vehicles_are_there_before_the_first_is_simulated(tmp_path, monkeypa
             ["osv83", "no_such_vehicle"],
             "there are no references 'no_such_vehicle'|no vehicle 'no_such_vehicle'",
         ),
+        (
+            ["supply_vessel", "otter", "--radiation", "memory"],
+            "'Otter' has no added mass and damping by freq",
+        ),
         (["osv83", "--out", str(tmp_path / "page")], "page.* cannot be written: File exists"),
     ):
         result = CliRunner().invoke(app, ["validate", *arguments])
@@ -152,6 +156,19 @@ def test_the_command_holds_a_vehicle_against_a_file_of_ones_own(tmp_path):
     (found,) = json.loads(differing.stdout)["otter"]
     assert found["verdict"] == "differs"
     assert math.isclose(found["value"], 2.98, rel_tol=0.01)
+
+
+def test_the_command_lets_a_vehicle_make_its_waves_by_memory(tmp_path):
+    """The period of roll is 2.5 % longer: that of the pole in test_decay.py."""
+    file = tmp_path / "trials.toml"
+    file.write_text(
+        '[[trial]]\nname = "roll"\nmanoeuvre = "decay"\nmotion = "roll"\nrelease = 0.1\n'
+        '[[trial.expected]]\nquantity = "period_s"\nvalue = 10.46\nwithin = 0.01\nsource = "its pole"\n'
+    )
+    for radiation, status in (("memory", 0), ("constant", 1)):
+        arguments = ["supply_vessel", "--references", str(file), "--radiation", radiation]
+        result = CliRunner().invoke(app, ["validate", *arguments])
+        assert result.exit_code == status, result.output
 
 
 @pytest.mark.parametrize("name", sweep(validated_vehicles(), plain=["otter"]))

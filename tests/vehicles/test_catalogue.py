@@ -198,6 +198,24 @@ def test_an_hour_of_random_commands_is_finite(name):
     random_hour(body, lambda: body.actuate(rng.uniform(low, high), 25))
 
 
+@pytest.mark.parametrize("name", sweep(vehicle_names(), plain=("bluerov2_heavy",)))
+@pytest.mark.parametrize("actuation", sweep(["wrench", "thrusters"], plain=["wrench"]))
+def test_an_hour_in_lanes_is_finite(name, actuation):
+    """Eight of a kind, each by its own random wrenches or commands; none is refused a step."""
+    vehicle = load_vehicle(name)
+    batch = Scene(vehicle, current=(0.3, -0.1, 0.0), step=0.02, actuation=actuation).batch(8)
+    rng, most = np.random.default_rng(0), vehicle.wrench_limits
+    low, high = (np.array([getattr(channel, end) for channel in vehicle.channels]) for end in ("low", "high"))
+    for _ in range(7200):
+        if actuation == "wrench":
+            batch.step(rng.uniform(-1.0, 1.0, (8, 6)) * most, 25)
+        else:
+            batch.actuate(rng.uniform(low, high, (8, low.size)), 25)
+        assert not batch.refusals
+        assert np.isfinite(batch.get_state()).all()
+    batch.close()
+
+
 @pytest.mark.parametrize("name", sweep(vehicle_names(), plain=("bluerov2_heavy", "otter")))
 def test_the_environment_takes_it(name):
     with warnings.catch_warnings():

@@ -105,3 +105,13 @@ def test_a_run_on_mars(monkeypatch):
     heave, pitch = 2, 4
     ranges = np.ptp(reference, axis=0)[[heave, pitch]]
     assert (np.abs(mine - reference)[:, [heave, pitch]].max(axis=0) < 0.03 * ranges).all()
+
+
+@pytest.mark.parametrize(("shaft_speed", "rate_deg_s"), [(50.0, 0.0), (70.0, 2.9), (100.0, 15.0)])
+def test_hands_off_it_keeps_its_course_only_as_fast_as_its_file_says(shaft_speed, rate_deg_s):
+    """With the Munk moment that MSS's otter.m keeps: from 3 mm/s of drift, for half a minute to two."""
+    stepper = Scene("otter", actuation="thrusters", step=0.02).stepper()
+    speed = 0.03 * shaft_speed
+    stepper.reset(velocity_body=(speed, 0.003, 0.0, 0.0, 0.0, 0.0))
+    stepper.actuate([shaft_speed, shaft_speed], round(120.0 / speed / 0.02))
+    assert abs(np.degrees(stepper.velocity_body[5])) == pytest.approx(rate_deg_s, abs=0.1)

@@ -83,11 +83,36 @@ def test_each_vehicle_of_the_catalogue_says_what_its_numbers_hold_for(name):
         assert all(f"up to {limit:g} m/s ({vehicle.validity.source})" in note for note in notes)
 
 
+@pytest.mark.parametrize("name", vehicle_names())
+def test_of_drift_and_waves_each_vehicle_has_a_limit_or_says_why_there_is_none(name):
+    """The wave height of vessels is by one rule: the largest of 1000 waves, by Rayleigh's distribution."""
+    vehicle = load_vehicle(name)
+    validity, size = vehicle.validity, vehicle.dimensions
+    assert validity.drift_angle_deg or validity.drift_angle_source
+    assert validity.wave_height_source
+    assert len(vehicle_sheet(vehicle).validity) == 3
+    assert (validity.wave_height is None) == (vehicle.hydrostatics is None or name == "otter")
+    if validity.wave_height is not None:
+        crest = 0.5 * validity.wave_height * math.sqrt(0.5 * math.log(1000.0))
+        assert 0.9 < crest / min(size.draft, size.height - size.draft) < 1.0
+
+
+def test_a_limit_of_its_own_source_is_told_with_it():
+    own = Validity(**LIMITS, drift_angle_source="a rotating arm")
+    (note,) = own.notes(np.array([[1.0, 1.0, 0.0]]))
+    assert note.endswith("hold up to 30 deg (a rotating arm).")
+    free = Validity(speed=2.0, source="a towing tank", drift_angle_source="it is round")
+    assert free.limits() == ("through the water up to 2 m/s", "drift without a limit: it is round")
+    assert free.notes(np.array([[0.1, 1.9, 0.0]])) == ()
+
+
 def test_waves_above_the_limit_are_warned_of():
     vessel = with_validity(wave_height=1.0)
     (low,), (high,) = (weather_of([Sea(Jonswap(height, 6.0), components=3)]) for height in (0.9, 1.1))
     low.terms(vessel, np.zeros(3))
-    with pytest.warns(BeyondValidityWarning, match=r"waves of 1.1 m; its numbers hold up to 1 m"):
+    with pytest.warns(
+        BeyondValidityWarning, match=r"waves of 1.1 m; its numbers hold up to 1 m \(a towing tank\)"
+    ):
         high.terms(vessel, np.zeros(3))
 
 

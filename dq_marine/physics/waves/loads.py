@@ -89,11 +89,12 @@ class WaveLoads:
 
 
 def _warn_of_high_waves(sea: Sea, vehicle: Vehicle) -> None:
-    limit = None if vehicle.validity is None else vehicle.validity.wave_height
-    height = sea.spectrum.significant_height
-    if limit is not None and height > limit:
+    validity, height = vehicle.validity, sea.spectrum.significant_height
+    limit = None if validity is None else validity.wave_height
+    if validity is not None and limit is not None and height > limit:
+        source = validity.wave_height_source or validity.source
         warnings.warn(
-            f"{vehicle.name} is in waves of {height:.3g} m; its numbers hold up to {limit:g} m",
+            f"{vehicle.name} is in waves of {height:.3g} m; its numbers hold up to {limit:g} m ({source})",
             BeyondValidityWarning,
             stacklevel=2,
         )
