@@ -1,7 +1,7 @@
 """Gauss's collocation for whole scenes: order 8 for smooth forces, exact in the momentum that they leave alone.
 
-Without forces a call is steps of free motion, four at a time (`gauss_drift`); with forces, steps with forces at the
-stages (`gauss_forced`). A step whose sweeps do not converge is taken by the composition's fallback, a step of
+Steps are taken four at a time: those of free motion by `gauss_drift`, those with forces at the stages by
+`gauss_forced`. A step whose sweeps do not converge is taken by the composition's fallback, a step of
 Strang's method, and counted. Gauss's collocation on the momentum keeps energy, momentum and Casimirs of free bodies. It
 is not variational.
 """
@@ -15,9 +15,9 @@ from dq_marine.algebra.selection import negation, select, some
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
-from dq_marine.integrator.fallback import Stepped, make_advance_with_fallback, make_take, solved, usable
+from dq_marine.integrator.fallback import Stepped, Take, make_advance_with_fallback, make_take, solved, usable
 from dq_marine.integrator.gauss_drift import make_gauss_four, make_gauss_one
-from dq_marine.integrator.gauss_forced import make_forced_step
+from dq_marine.integrator.gauss_forced import Steps, make_forced_steps, one_of
 from dq_marine.integrator.step import (
     Advance,
     Composition,
@@ -26,9 +26,10 @@ from dq_marine.integrator.step import (
     arrival,
     set_out,
 )
+from dq_marine.integrator.water import as_it_is
 
 BATCH = 4
-"""Free steps whose motions are found side by side."""
+"""Steps after which the pose is made consistent with the momentum, in calls of so many."""
 
 
 def is_zero(wrench: Spatial) -> bool:
@@ -45,7 +46,7 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
     """
     four, one = make_gauss_four(stages), make_gauss_one(stages)
     carry = composition.water.at_stages.carry
-    take = make_take(make_forced_step(composition, gauss(stages)), composition.fallback)
+    take = make_take(one_of(make_forced_steps(composition, gauss(stages))), composition.fallback)
 
     def unforced(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
@@ -80,6 +81,42 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
     return unforced
 
 
+def make_in_fours(attempt: Steps, take: Take) -> Advance:
+    """Return the advance that tries four steps at once, and takes those one by one that fail or are left over.
+
+    Args:
+        attempt: whose report says whether its steps may be used.
+        take: see `fallback.make_take`.
+    """
+
+    def in_fours(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        h = parameters.timing.h
+        now = Stepped(state.pose, state.momentum, set_out(state))
+        done = 0
+        while done < steps and some(now.progress.under_way):
+            node = time + done * h
+            count = BATCH if steps - done >= BATCH else 1
+            rest = now.progress.under_way
+            if count == BATCH:
+                pose, momentum, report = attempt(parameters, node, h, BATCH, now.pose, now.momentum, wrench)
+                fine = rest & usable(report)
+                now = Stepped(
+                    select(fine, pose, now.pose),
+                    select(fine, momentum, now.momentum),
+                    solved(now.progress, fine, report, BATCH),
+                )
+                rest = rest & negation(fine)
+            if some(rest):
+                for step in range(count):
+                    now = take(parameters, wrench, node + step * h, h, now, rest)
+            done += count
+        return arrival(state, now.pose, now.momentum, state.fluid_memory, now.progress)
+
+    return in_fours
+
+
 @functools.cache
 def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
     """Return the method of order 2 x stages: (composition) -> advance."""
@@ -87,7 +124,9 @@ def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
     def make_gauss(composition: Composition) -> Advance:
         if composition.forceless:
             return make_unforced(composition, stages)
-        step = composition.water.at_stages.step(make_forced_step(composition, gauss(stages)))
-        return make_advance_with_fallback(step, composition.fallback)
+        steps, water = make_forced_steps(composition, gauss(stages)), composition.water.at_stages
+        if water.step is as_it_is:
+            return make_in_fours(steps, make_take(one_of(steps), composition.fallback))
+        return make_advance_with_fallback(water.step(one_of(steps)), composition.fallback)
 
     return make_gauss

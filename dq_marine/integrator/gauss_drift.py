@@ -23,7 +23,7 @@ from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_add, spat
 from dq_marine.algebra.stages import each_stage, stages_apart, stages_together
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift import Drift, transport_momentum
-from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept
+from dq_marine.integrator.drift_report import DriftReport, is_energy_kept, worst
 from dq_marine.integrator.energy_level import levelling
 from dq_marine.integrator.gauss_stages import (
     FreeBody,
@@ -141,12 +141,3 @@ def make_gauss_four(stages: int) -> Drift:
         return moved_by(levelled.increment, pose, momentum, DriftReport(report, levelled.energy_kept))
 
     return gauss_four
-
-
-def worst(first: SolverReport, second: SolverReport) -> SolverReport:
-    """Return the report on two solutions."""
-    return SolverReport(
-        max(first.relative_residual_squared, second.relative_residual_squared),
-        first.on_rest_branch & second.on_rest_branch,
-        first.iterations + second.iterations,
-    )

@@ -14,12 +14,12 @@ turns.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.selection import smallest_normal
-from dq_marine.algebra.spatial import Spatial, spatial_add_scaled
-from dq_marine.algebra.stages import stage_product, stage_sum, stages_apart
+from dq_marine.algebra.spatial import Spatial, spatial_add, spatial_add_scaled
+from dq_marine.algebra.stages import each_stage, stage_product, stage_sum, stages_apart
 from dq_marine.algebra.vector3 import dot
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift_report import SolverReport
@@ -84,7 +84,12 @@ def free_extent(body: FreeBody, a: Spatial) -> float:
 def make_sweep_stages(method: Collocation) -> SweepStages:
     """Return (body, c) -> the stages (G1)-(G3) of a step."""
     weights, powers = method.weights, method.powers
-    sweeps = make_sweeps(method, free_stage, spatial_add_scaled, free_extent, loose=True)
+
+    def sweep(body: FreeBody, c: Spatial, now: FreeStage) -> Any:
+        y = each_stage(weights, spatial_add, (c, stage_product(method.matrix, now.rate)))  # (G1)
+        return each_stage(weights, free_stage, (body, y))
+
+    sweeps = make_sweeps(method, sweep, spatial_add_scaled, free_extent, loose=True)
 
     def sweep_stages(body: FreeBody, c: Spatial) -> SweptStages:
         size = weighted_square(body.length_squared, c) + smallest_normal(c.linear[0])
