@@ -1,9 +1,9 @@
-"""Gauss's collocation for whole scenes: order 8 for smooth forces, exact in the momentum that they leave alone.
+"""Gauss's collocation for whole scenes: order 6 or 8 for smooth forces, exact in the momentum that they leave alone.
 
-Steps are taken four at a time: those of free motion by `gauss_drift`, those with forces at the stages by
-`gauss_forced`. A step whose sweeps do not converge is taken by the composition's fallback, a step of
-Strang's method, and counted. Gauss's collocation on the momentum keeps energy, momentum and Casimirs of free bodies. It
-is not variational.
+Steps are taken four at a time: those of free motion by `gauss_drift`, or for order 6 by `gauss_successive`, those with
+forces at the stages by `gauss_forced`. A step whose sweeps do not converge is taken by the composition's fallback, a
+step of Strang's method, and counted. Gauss's collocation on the momentum keeps energy, momentum and Casimirs of free
+bodies. It is not variational.
 """
 
 from __future__ import annotations
@@ -11,13 +11,17 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 
+from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.selection import negation, select, some
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
+from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.fallback import Stepped, Take, make_advance_with_fallback, make_take, solved, usable
 from dq_marine.integrator.gauss_drift import make_gauss_four, make_gauss_one
 from dq_marine.integrator.gauss_forced import Steps, make_forced_steps, one_of
+from dq_marine.integrator.gauss_successive import SUCCESSIVE, FreeSteps, successive_steps
+from dq_marine.integrator.inertia import Inertia
 from dq_marine.integrator.step import (
     Advance,
     Composition,
@@ -38,13 +42,30 @@ def is_zero(wrench: Spatial) -> bool:
     return (m[0] == 0.0) & (m[1] == 0.0) & (m[2] == 0.0) & (f[0] == 0.0) & (f[1] == 0.0) & (f[2] == 0.0)
 
 
+@functools.cache
+def make_free_steps(stages: int) -> FreeSteps:
+    """Return (inertia, h, steps, pose, momentum) -> (pose, momentum, report): four steps of free motion, or one."""
+    if stages == SUCCESSIVE:
+        return successive_steps
+    four, one = make_gauss_four(stages), make_gauss_one(stages)
+
+    def free_steps(
+        inertia: Inertia, h: float, steps: int, pose: DualQuaternion, momentum: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        if steps == BATCH:
+            return four(inertia, h, pose, momentum)
+        return one(inertia, h, pose, momentum)
+
+    return free_steps
+
+
 def make_unforced(composition: Composition, stages: int) -> Advance:
     """Return the advance of a scene without forces of its own.
 
     The bodies that no wrench pushes try four steps at once, and one by one those that are left over. All others, and
     those for which that fails, go step by step as under forces.
     """
-    four, one = make_gauss_four(stages), make_gauss_one(stages)
+    free = make_free_steps(stages)
     carry = composition.water.at_stages.carry
     take = make_take(one_of(make_forced_steps(composition, gauss(stages))), composition.fallback)
 
@@ -60,10 +81,7 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
             node = time + done * h
             pushed = now.progress.under_way
             if some(unpushed & now.progress.under_way):
-                if count == BATCH:
-                    pose, momentum, report = four(inertia, h, now.pose, now.momentum)
-                else:
-                    pose, momentum, report = one(inertia, h, now.pose, now.momentum)
+                pose, momentum, report = free(inertia, h, count, now.pose, now.momentum)
                 pose = carry(parameters.water, node, count * h, pose)
                 fine = unpushed & now.progress.under_way & usable(report)
                 now = Stepped(
