@@ -100,7 +100,7 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
 
 
 def make_in_fours(attempt: Steps, take: Take) -> Advance:
-    """Return the advance that tries four steps at once, and takes those one by one that fail or are left over.
+    """Return the advance that tries up to four steps at once, and takes those one by one that fail.
 
     Args:
         attempt: whose report says whether its steps may be used.
@@ -115,15 +115,15 @@ def make_in_fours(attempt: Steps, take: Take) -> Advance:
         done = 0
         while done < steps and some(now.progress.under_way):
             node = time + done * h
-            count = BATCH if steps - done >= BATCH else 1
+            count = min(BATCH, steps - done)
             rest = now.progress.under_way
-            if count == BATCH:
-                pose, momentum, report = attempt(parameters, node, h, BATCH, now.pose, now.momentum, wrench)
+            if count > 1:
+                pose, momentum, report = attempt(parameters, node, h, count, now.pose, now.momentum, wrench)
                 fine = rest & usable(report)
                 now = Stepped(
                     select(fine, pose, now.pose),
                     select(fine, momentum, now.momentum),
-                    solved(now.progress, fine, report, BATCH),
+                    solved(now.progress, fine, report, count),
                 )
                 rest = rest & negation(fine)
             if some(rest):

@@ -26,12 +26,13 @@ from dq_marine.algebra.dual_quaternion import (
 from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.quaternion import (
     Quaternion,
+    quaternion_add,
     quaternion_conjugate,
     quaternion_dot,
     quaternion_multiply,
     rotate_inverse,
 )
-from dq_marine.algebra.selection import smallest_normal, some, spread
+from dq_marine.algebra.selection import select, smallest_normal, some, spread
 from dq_marine.algebra.spatial import (
     ZERO,
     Spatial,
@@ -46,7 +47,7 @@ from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport, SolverReport, worst
-from dq_marine.integrator.energy_level import levelling
+from dq_marine.integrator.energy_level import FAR_FROM_LEVEL, Nearer, levelling
 from dq_marine.integrator.forced_stages import (
     ForcedStage,
     Place,
@@ -58,12 +59,12 @@ from dq_marine.integrator.forced_stages import (
     place_extent,
 )
 from dq_marine.integrator.forces import join_pose_forces, join_potentials
-from dq_marine.integrator.gauss_stages import squared_length, weighted_square
+from dq_marine.integrator.gauss_stages import make_continued, squared_length, weighted_square
 from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, unit
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.staged import Step
 from dq_marine.integrator.step import Composition, StepParameters
-from dq_marine.integrator.sweeps import make_sweeps
+from dq_marine.integrator.sweeps import make_sweeps, same
 from dq_marine.integrator.water import as_it_is
 
 Steps: TypeAlias = Callable[
@@ -112,14 +113,14 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
     add_pose_forces = join_pose_forces(composition.pose_forces)
     carry = composition.water.at_stages.carry
 
-    def levelled(
+    def nearer(
         around: Surroundings,
         start: Place,
         pose: DualQuaternion,
         increment: Increment,
         pushed: Spatial,
         work: float,
-    ) -> Increment:
+    ) -> Nearer:
         parameters, square = around.parameters, around.h * around.h
         inertia, forces = parameters.inertia, parameters.forces[0]
         reached = pose_renormalise(dual_multiply(pose, as_pose(increment)))
@@ -133,7 +134,22 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
         rate = spatial_add_scaled(momentum_bracket(twist, momentum), square, force)
         excess = (has - had) + square * gained
         delta = levelling(around.length_squared, rate, excess, around.size)
-        return shifted(increment, delta.angular, delta.linear)
+        return Nearer(shifted(increment, delta.angular, delta.linear), excess, around.size)
+
+    def levelled(
+        around: Surroundings,
+        start: Place,
+        pose: DualQuaternion,
+        increment: Increment,
+        pushed: Spatial,
+        work: float,
+    ) -> Increment:
+        first = nearer(around, start, pose, increment, pushed, work)
+        level = first.increment
+        far = abs(first.excess) > FAR_FROM_LEVEL * first.energy
+        if some(far):
+            level = select(far, nearer(around, start, pose, level, pushed, work).increment, level)
+        return level
 
     return levelled
 
@@ -146,55 +162,67 @@ class Marched(NamedTuple):
         given: what the forces have added to the spatial momentum, times h: the sum of all J (G9).
         work: of the constant wrench, times h^2.
         report: how the sweeps fared.
+        first: the evaluations at all stages that the sweeps of the step that follows begin with.
     """
 
     place: Place
     given: Spatial
     work: float
     report: SolverReport
+    first: ForcedStage
 
 
-March: TypeAlias = Callable[[StepParameters, float, float, float, Vector3, Spatial, Marched], Marched]
+March: TypeAlias = Callable[[Surroundings, bool, Marched], Marched]
+
+
+def make_following(method: Collocation) -> Callable[[Surroundings, Place, ForcedStage], ForcedStage]:
+    """Return (start, stages of the step before) -> the evaluations that their rates lead to in a step (G12)."""
+    ahead = method.ahead
+    columns = tuple(zip(*ahead, strict=True))
+    onward = tuple(
+        tuple(sum(a * e for a, e in zip(row, column, strict=True)) for column in columns)
+        for row in method.matrix
+    )
+
+    continued = make_continued(method)
+
+    def following(around: Surroundings, start: Place, found: ForcedStage) -> Any:
+        turn = stage_product(onward, found.rate.attitude)
+        rate = Place(
+            continued(around.length_squared, around.size, found.rate.momentum),
+            stage_product(ahead, found.rate.attitude),
+            found.rate.way,
+        )
+        attitude = each_stage(method.weights, quaternion_add, (start.attitude, turn))
+        return ForcedStage(rate, found.wrench, found.twist, attitude)
+
+    return following
 
 
 def make_march(composition: Composition, method: Collocation) -> March:
-    """Return (parameters, began, elapsed, h, position, wrench, before) -> where a step more leads.
-
-    The step starts `elapsed` after `began`, the time when the body was at `position`.
-    """
-    evaluate = make_evaluate(composition)
+    """Return (surroundings of the step's start, whether a step was before, what is before) -> a step more."""
     weights, nodes = method.weights, method.nodes
-    sweep = make_forced_sweep(composition, method)
+    sweep, following = make_forced_sweep(composition, method), make_following(method)
     sweeps = make_sweeps(method, sweep, moved_place, place_extent, loose=True)
 
-    def march(
-        parameters: StepParameters,
-        began: float,
-        elapsed: float,
-        h: float,
-        position: Vector3,
-        wrench: Spatial,
-        before: Marched,
-    ) -> Marched:
+    def march(at_start: Surroundings, ahead: bool, before: Marched) -> Marched:
+        parameters, length_squared, pushing, h, position, wrench, began, elapsed = at_start
         start = before.place
-        like = start.momentum.linear[0]
-        length_squared = squared_length(parameters.inertia)
-        at_start = Surroundings(parameters, length_squared, like, h, position, wrench, began, elapsed)
-        begun = evaluate(at_start, start)
-        size = weighted_square(length_squared, start.momentum)
-        size = size + weighted_square(length_squared, begun.wrench) + smallest_normal(like)
-        at_nodes = each_stage(nodes, later, (elapsed, h, stage_constants(nodes, like)))
+        size = weighted_square(length_squared, start.momentum) + pushing
+        at_nodes = each_stage(nodes, later, (elapsed, h, stage_constants(nodes, start.momentum.linear[0])))
         around = Surroundings(parameters, length_squared, size, h, position, wrench, began, at_nodes)
-        found, report = sweeps(around, start, begun, size)
+        found, report = sweeps(around, start, before.first, size, ahead)
         end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
         # The ways are computed after the sweeps: where no force asks for the position, these go without them.
         ways = each_stage(weights, add, (start.way, stage_product(method.matrix, found.rate.way)))
         given = stage_sum(weights, each_stage(weights, impulse, (found, ways)))  # (G9)
+        place = Place(end.momentum, unit(end.attitude), end.way)
         return Marched(
-            Place(end.momentum, unit(end.attitude), end.way),
+            place,
             spatial_add(before.given, given),
             before.work + spatial_dot(wrench, stage_sum(weights, found.twist)),
             worst(before.report, report),
+            following(around, place, found),
         )
 
     return march
@@ -205,8 +233,12 @@ def make_forced_steps(composition: Composition, method: Collocation) -> Steps:
 
     What the steps' pose is made consistent with, at the end of all, is the impulse of all.
     """
-    march, land = make_march(composition, method), make_landing(composition)
-    carry = composition.water.at_stages.carry
+    evaluate, march, land = (
+        make_evaluate(composition),
+        make_march(composition, method),
+        make_landing(composition),
+    )
+    nodes, carry = method.nodes, composition.water.at_stages.carry
 
     def forced_steps(
         parameters: StepParameters,
@@ -223,9 +255,14 @@ def make_forced_steps(composition: Composition, method: Collocation) -> Steps:
         start = Place(spatial_scale(h, momentum), pose.real, spread((0.0, 0.0, 0.0), like))
         position = pose_position(pose)
         solver = SolverReport(spread(0.0, like), spread(True, like), 0)
-        reached = Marched(start, spread(ZERO, like), spread(0.0, like), solver)
+        at_start = Surroundings(parameters, length_squared, like, h, position, wrench, time, 0.0)
+        begun = evaluate(at_start, start)
+        pushing = weighted_square(length_squared, begun.wrench) + smallest_normal(like)
+        first = each_stage(nodes, same, (begun,))
+        reached = Marched(start, spread(ZERO, like), spread(0.0, like), solver, first)
         for step in range(steps):
-            reached = march(parameters, time, step * h, h, position, wrench, reached)
+            at_start = Surroundings(parameters, length_squared, pushing, h, position, wrench, time, step * h)
+            reached = march(at_start, step > 0, reached)
             if not some(reached.report.on_rest_branch):
                 break
         given = to_body(pose.real, reached.given)
