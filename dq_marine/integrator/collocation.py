@@ -29,6 +29,8 @@ class Collocation(NamedTuple):
         matrix: A_ij, the integral of the j-th of these polynomials from 0 to c_i.
         powers: V_kj, the k-th coefficient of the j-th of them as a polynomial in the time from the middle of the step,
             in half steps; halved, for rates that are a whole step's.
+        end: e_j, the j-th of these polynomials at the end of the step.
+        ahead: E_ij, the j-th of these polynomials at node i of a step that follows, of the same size.
         order: of convergence.
     """
 
@@ -36,6 +38,8 @@ class Collocation(NamedTuple):
     weights: tuple[float, ...]
     matrix: tuple[tuple[float, ...], ...]
     powers: tuple[tuple[float, ...], ...]
+    end: tuple[float, ...]
+    ahead: tuple[tuple[float, ...], ...]
     order: int
 
 
@@ -69,6 +73,8 @@ def collocation_at(places: Sequence[Decimal], order: int) -> Collocation:
         weights=tuple(float(half * integral(p, Decimal(1))) for p in basis),
         matrix=tuple(tuple(float(half * integral(p, x)) for p in basis) for x in places),
         powers=tuple(tuple(float(half * p[k]) for p in basis) for k in range(len(places))),
+        end=tuple(float(value(p, Decimal(1))) for p in basis),
+        ahead=tuple(tuple(float(value(p, x + 2)) for p in basis) for x in places),
         order=order,
     )
 

@@ -59,6 +59,15 @@ class DriftReport(NamedTuple):
     energy_kept: bool
 
 
+def worst(first: SolverReport, second: SolverReport) -> SolverReport:
+    """Return the report on two solutions."""
+    return SolverReport(
+        max(first.relative_residual_squared, second.relative_residual_squared),
+        first.on_rest_branch & second.on_rest_branch,
+        first.iterations + second.iterations,
+    )
+
+
 def equation_size_squared(
     a: Vector3, za: Vector3, w: Vector3, y: Vector3, zb: Vector3, coupled: Vector3
 ) -> float:

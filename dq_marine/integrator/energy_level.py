@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from dq_marine.algebra.selection import smallest_normal
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import scale
 from dq_marine.integrator.gauss_stages import weighted_square
+from dq_marine.integrator.increment import Increment
 
 STEADY = 1e-8
 """Of the energy's square: below this the square of the momentum's rate counts as zero."""
+
+
+FAR_FROM_LEVEL = 1e-6
+"""Of the energy: one step of Newton's method leaves less than the square of such an excess."""
+
+
+class Nearer(NamedTuple):
+    """An increment nearer to an energy level, the excess of energy before, and the energy it is compared with."""
+
+    increment: Increment
+    excess: float
+    energy: float
 
 
 def levelling(length_squared: float, rate: Spatial, excess: float, energy: float) -> Spatial:

@@ -1,9 +1,9 @@
-"""Gauss's collocation for whole scenes: order 8 for smooth forces, exact in the momentum that they leave alone.
+"""Gauss's collocation for whole scenes: order 6 or 8 for smooth forces, exact in the momentum that they leave alone.
 
-Without forces a call is steps of free motion, four at a time (`gauss_drift`); with forces, steps with forces at the
-stages (`gauss_forced`). A step whose sweeps do not converge is taken by the composition's fallback, a step of
-Strang's method, and counted. Gauss's collocation on the momentum keeps energy, momentum and Casimirs of free bodies. It
-is not variational.
+Steps are taken four at a time: those of free motion by `gauss_drift`, or for order 6 by `gauss_successive`, those with
+forces at the stages by `gauss_forced`. A step whose sweeps do not converge is taken by the composition's fallback, a
+step of Strang's method, and counted. Gauss's collocation on the momentum keeps energy, momentum and Casimirs of free
+bodies. It is not variational.
 """
 
 from __future__ import annotations
@@ -11,13 +11,17 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 
+from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.selection import negation, select, some
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
-from dq_marine.integrator.fallback import Stepped, make_advance_with_fallback, make_take, solved, usable
+from dq_marine.integrator.drift_report import DriftReport
+from dq_marine.integrator.fallback import Stepped, Take, make_advance_with_fallback, make_take, solved, usable
 from dq_marine.integrator.gauss_drift import make_gauss_four, make_gauss_one
-from dq_marine.integrator.gauss_forced import make_forced_step
+from dq_marine.integrator.gauss_forced import Steps, make_forced_steps, one_of
+from dq_marine.integrator.gauss_successive import SUCCESSIVE, FreeSteps, successive_steps
+from dq_marine.integrator.inertia import Inertia
 from dq_marine.integrator.step import (
     Advance,
     Composition,
@@ -26,9 +30,10 @@ from dq_marine.integrator.step import (
     arrival,
     set_out,
 )
+from dq_marine.integrator.water import as_it_is
 
 BATCH = 4
-"""Free steps whose motions are found side by side."""
+"""Steps after which the pose is made consistent with the momentum, in calls of so many."""
 
 
 def is_zero(wrench: Spatial) -> bool:
@@ -37,15 +42,32 @@ def is_zero(wrench: Spatial) -> bool:
     return (m[0] == 0.0) & (m[1] == 0.0) & (m[2] == 0.0) & (f[0] == 0.0) & (f[1] == 0.0) & (f[2] == 0.0)
 
 
+@functools.cache
+def make_free_steps(stages: int) -> FreeSteps:
+    """Return (inertia, h, steps, pose, momentum) -> (pose, momentum, report): four steps of free motion, or one."""
+    if stages == SUCCESSIVE:
+        return successive_steps
+    four, one = make_gauss_four(stages), make_gauss_one(stages)
+
+    def free_steps(
+        inertia: Inertia, h: float, steps: int, pose: DualQuaternion, momentum: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        if steps == BATCH:
+            return four(inertia, h, pose, momentum)
+        return one(inertia, h, pose, momentum)
+
+    return free_steps
+
+
 def make_unforced(composition: Composition, stages: int) -> Advance:
     """Return the advance of a scene without forces of its own.
 
     The bodies that no wrench pushes try four steps at once, and one by one those that are left over. All others, and
     those for which that fails, go step by step as under forces.
     """
-    four, one = make_gauss_four(stages), make_gauss_one(stages)
+    free = make_free_steps(stages)
     carry = composition.water.at_stages.carry
-    take = make_take(make_forced_step(composition, gauss(stages)), composition.fallback)
+    take = make_take(one_of(make_forced_steps(composition, gauss(stages))), composition.fallback)
 
     def unforced(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
@@ -59,10 +81,7 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
             node = time + done * h
             pushed = now.progress.under_way
             if some(unpushed & now.progress.under_way):
-                if count == BATCH:
-                    pose, momentum, report = four(inertia, h, now.pose, now.momentum)
-                else:
-                    pose, momentum, report = one(inertia, h, now.pose, now.momentum)
+                pose, momentum, report = free(inertia, h, count, now.pose, now.momentum)
                 pose = carry(parameters.water, node, count * h, pose)
                 fine = unpushed & now.progress.under_way & usable(report)
                 now = Stepped(
@@ -80,6 +99,42 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
     return unforced
 
 
+def make_in_fours(attempt: Steps, take: Take) -> Advance:
+    """Return the advance that tries up to four steps at once, and takes those one by one that fail.
+
+    Args:
+        attempt: whose report says whether its steps may be used.
+        take: see `fallback.make_take`.
+    """
+
+    def in_fours(
+        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
+    ) -> StepOutcome:
+        h = parameters.timing.h
+        now = Stepped(state.pose, state.momentum, set_out(state))
+        done = 0
+        while done < steps and some(now.progress.under_way):
+            node = time + done * h
+            count = min(BATCH, steps - done)
+            rest = now.progress.under_way
+            if count > 1:
+                pose, momentum, report = attempt(parameters, node, h, count, now.pose, now.momentum, wrench)
+                fine = rest & usable(report)
+                now = Stepped(
+                    select(fine, pose, now.pose),
+                    select(fine, momentum, now.momentum),
+                    solved(now.progress, fine, report, count),
+                )
+                rest = rest & negation(fine)
+            if some(rest):
+                for step in range(count):
+                    now = take(parameters, wrench, node + step * h, h, now, rest)
+            done += count
+        return arrival(state, now.pose, now.momentum, state.fluid_memory, now.progress)
+
+    return in_fours
+
+
 @functools.cache
 def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
     """Return the method of order 2 x stages: (composition) -> advance."""
@@ -87,7 +142,9 @@ def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
     def make_gauss(composition: Composition) -> Advance:
         if composition.forceless:
             return make_unforced(composition, stages)
-        step = composition.water.at_stages.step(make_forced_step(composition, gauss(stages)))
-        return make_advance_with_fallback(step, composition.fallback)
+        steps, water = make_forced_steps(composition, gauss(stages)), composition.water.at_stages
+        if water.step is as_it_is:
+            return make_in_fours(steps, make_take(one_of(steps), composition.fallback))
+        return make_advance_with_fallback(water.step(one_of(steps)), composition.fallback)
 
     return make_gauss

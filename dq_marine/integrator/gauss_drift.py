@@ -19,14 +19,16 @@ from dq_marine.algebra.dual_quaternion import (
     pose_renormalise,
 )
 from dq_marine.algebra.frames import momentum_bracket
+from dq_marine.algebra.selection import select, some
 from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_add, spatial_dot, spatial_scale
 from dq_marine.algebra.stages import each_stage, stages_apart, stages_together
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift import Drift, transport_momentum
-from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept
-from dq_marine.integrator.energy_level import levelling
+from dq_marine.integrator.drift_report import DriftReport, is_energy_kept, worst
+from dq_marine.integrator.energy_level import FAR_FROM_LEVEL, Nearer, levelling
 from dq_marine.integrator.gauss_stages import (
     FreeBody,
+    make_begin,
     make_sweep_stages,
     squared_length,
 )
@@ -51,6 +53,10 @@ def fitted(length: float, twists: Twists, before: Spatial, after: Spatial) -> In
     return consistent(length, increment_of(twists), before, after)
 
 
+MOST_LEVELLINGS = 4
+"""Steps of Newton's method to an energy level, at the most."""
+
+
 class Levelled(NamedTuple):
     """An increment after which a body has the energy it had before, and whether it nearly had it anyway."""
 
@@ -59,14 +65,31 @@ class Levelled(NamedTuple):
 
 
 def on_energy_level(body: FreeBody, increment: Increment, before: Spatial) -> Levelled:
-    """Return the increment after which the momentum has the energy it had before (G10)."""
+    """Return the increment after which the momentum has the energy it had before (G10): Newton's method.
+
+    One step of it does but for long steps.
+    """
+    nearer = nearer_to_energy_level(body, increment, before)
+    level, excess = nearer.increment, nearer.excess
+    far = abs(excess) > FAR_FROM_LEVEL * nearer.energy
+    count = 1
+    while some(far) and count < MOST_LEVELLINGS:
+        again = nearer_to_energy_level(body, level, before)
+        level = select(far, again.increment, level)
+        far = far & (abs(again.excess) > FAR_FROM_LEVEL * nearer.energy)
+        count += 1
+    return Levelled(level, is_energy_kept(nearer.energy, nearer.energy + excess))
+
+
+def nearer_to_energy_level(body: FreeBody, increment: Increment, before: Spatial) -> Nearer:
+    """Return one step of Newton's method for (G10)."""
     after = carried(increment, before)
     twist = twist_from_momentum(body.inertia, after)
     rate = momentum_bracket(twist, after)
     had = quadratic_form(body.inertia.inverse, before)
-    has = spatial_dot(twist, after)
-    delta = levelling(body.length_squared, rate, 0.5 * (has - had), had)
-    return Levelled(shifted(increment, delta.angular, delta.linear), is_energy_kept(had, has))
+    excess = spatial_dot(twist, after) - had
+    delta = levelling(body.length_squared, rate, 0.5 * excess, had)
+    return Nearer(shifted(increment, delta.angular, delta.linear), excess, had)
 
 
 def moved_by(
@@ -84,14 +107,14 @@ def moved_by(
 @functools.cache
 def make_gauss_one(stages: int) -> Drift:
     """Return (inertia, h, pose, momentum) -> (pose, momentum, report): a step of free motion."""
-    sweep_stages = make_sweep_stages(gauss(stages))
+    begin, sweep_stages = make_begin(gauss(stages)), make_sweep_stages(gauss(stages))
 
     def gauss_one(
         inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
     ) -> tuple[DualQuaternion, Spatial, DriftReport]:
         body = FreeBody(inertia, squared_length(inertia))
         before = spatial_scale(h, momentum)
-        swept = sweep_stages(body, before)
+        swept = sweep_stages(body, before, begin(body, before), False)
         after = spatial_add(before, swept.change)
         p = swept.twists
         increment = fitted(math.sqrt(body.length_squared), Twists(p[0], p[1], p[2], p[3]), before, after)
@@ -108,7 +131,7 @@ def make_gauss_four(stages: int) -> Drift:
 
     The momentum of four steps is found one after the other, then their motions side by side.
     """
-    sweep_stages = make_sweep_stages(gauss(stages))
+    begin, sweep_stages = make_begin(gauss(stages)), make_sweep_stages(gauss(stages))
 
     def gauss_four(
         inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
@@ -116,13 +139,13 @@ def make_gauss_four(stages: int) -> Drift:
         body = FreeBody(inertia, squared_length(inertia))
         length = math.sqrt(body.length_squared)
         c0 = spatial_scale(h, momentum)
-        first = sweep_stages(body, c0)
+        first = sweep_stages(body, c0, begin(body, c0), False)
         c1 = spatial_add(c0, first.change)
-        second = sweep_stages(body, c1)
+        second = sweep_stages(body, c1, first.following, True)
         c2 = spatial_add(c1, second.change)
-        third = sweep_stages(body, c2)
+        third = sweep_stages(body, c2, second.following, True)
         c3 = spatial_add(c2, third.change)
-        fourth = sweep_stages(body, c3)
+        fourth = sweep_stages(body, c3, third.following, True)
         c4 = spatial_add(c3, fourth.change)
         p, q, r, s = first.twists, second.twists, third.twists, fourth.twists
         twists = stages_together(
@@ -141,12 +164,3 @@ def make_gauss_four(stages: int) -> Drift:
         return moved_by(levelled.increment, pose, momentum, DriftReport(report, levelled.energy_kept))
 
     return gauss_four
-
-
-def worst(first: SolverReport, second: SolverReport) -> SolverReport:
-    """Return the report on two solutions."""
-    return SolverReport(
-        max(first.relative_residual_squared, second.relative_residual_squared),
-        first.on_rest_branch & second.on_rest_branch,
-        first.iterations + second.iterations,
-    )

@@ -1,4 +1,4 @@
-"""One step of a body with forces, by Gauss's collocation on momentum, attitude and position.
+"""Steps of a body with forces, by Gauss's collocation on momentum, attitude and position.
 
 With c = h mu, W = M^-1 and the forces F at the stages (docs/theory.md, eqs. G1, G3 and G7-G9)
 
@@ -6,15 +6,16 @@ With c = h mu, W = M^-1 and the forces F at the stages (docs/theory.md, eqs. G1,
     q_i = q + sum_j A_ij q_j (0, omega_j)/2,   x_i = x + sum_j A_ij q_j v_j q_j*,   [omega; v] = W y (G8)
     J = sum_i b_i [R_i m_i + (x_i - x) x R_i f_i; R_i f_i],   [m; f] = h^2 F                         (G9)
 
-J is what the forces add to the spatial momentum. The pose is made consistent with both: the old spatial momentum and J
-are what the new pose carries to the new body momentum c'. What a force leaves alone, such as the momentum about
-the vertical under weight and buoyancy, is therefore exact to round-off.
+J is what the forces add to the spatial momentum in a step. After one step, or several, the pose is made consistent with
+both: the old spatial momentum and the sum of all J are what the new pose carries to the new body momentum c'. What a
+force leaves alone, such as the momentum about the vertical under weight and buoyancy, is therefore exact to round-off.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.dual_quaternion import (
     DualQuaternion,
@@ -25,13 +26,15 @@ from dq_marine.algebra.dual_quaternion import (
 from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.quaternion import (
     Quaternion,
+    quaternion_add,
     quaternion_conjugate,
     quaternion_dot,
     quaternion_multiply,
     rotate_inverse,
 )
-from dq_marine.algebra.selection import smallest_normal, spread
+from dq_marine.algebra.selection import select, smallest_normal, some, spread
 from dq_marine.algebra.spatial import (
+    ZERO,
     Spatial,
     quadratic_form,
     spatial_add,
@@ -43,26 +46,32 @@ from dq_marine.algebra.stages import each_stage, stage_constants, stage_product,
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
-from dq_marine.integrator.drift_report import DriftReport
-from dq_marine.integrator.energy_level import levelling
+from dq_marine.integrator.drift_report import DriftReport, SolverReport, worst
+from dq_marine.integrator.energy_level import FAR_FROM_LEVEL, Nearer, levelling
 from dq_marine.integrator.forced_stages import (
     ForcedStage,
     Place,
     Surroundings,
     follow,
     make_evaluate,
+    make_forced_sweep,
     moved_place,
-    multiplied,
     place_extent,
 )
 from dq_marine.integrator.forces import join_pose_forces, join_potentials
-from dq_marine.integrator.gauss_stages import squared_length, weighted_square
+from dq_marine.integrator.gauss_stages import make_continued, squared_length, weighted_square
 from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, unit
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.staged import Step
 from dq_marine.integrator.step import Composition, StepParameters
-from dq_marine.integrator.sweeps import make_sweeps
+from dq_marine.integrator.sweeps import make_sweeps, same
 from dq_marine.integrator.water import as_it_is
+
+Steps: TypeAlias = Callable[
+    [Any, float, float, int, DualQuaternion, Spatial, Spatial],
+    tuple[DualQuaternion, Spatial, DriftReport],
+]
+"""(the step's parameters, time, h, number of steps, pose, momentum, wrench) -> (pose, momentum, report)."""
 
 
 def turned_to_world(q: Quaternion, a: Vector3) -> Vector3:
@@ -104,14 +113,14 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
     add_pose_forces = join_pose_forces(composition.pose_forces)
     carry = composition.water.at_stages.carry
 
-    def levelled(
+    def nearer(
         around: Surroundings,
         start: Place,
         pose: DualQuaternion,
         increment: Increment,
         pushed: Spatial,
         work: float,
-    ) -> Increment:
+    ) -> Nearer:
         parameters, square = around.parameters, around.h * around.h
         inertia, forces = parameters.inertia, parameters.forces[0]
         reached = pose_renormalise(dual_multiply(pose, as_pose(increment)))
@@ -125,22 +134,117 @@ def make_landing(composition: Composition) -> Callable[..., Increment]:
         rate = spatial_add_scaled(momentum_bracket(twist, momentum), square, force)
         excess = (has - had) + square * gained
         delta = levelling(around.length_squared, rate, excess, around.size)
-        return shifted(increment, delta.angular, delta.linear)
+        return Nearer(shifted(increment, delta.angular, delta.linear), excess, around.size)
+
+    def levelled(
+        around: Surroundings,
+        start: Place,
+        pose: DualQuaternion,
+        increment: Increment,
+        pushed: Spatial,
+        work: float,
+    ) -> Increment:
+        first = nearer(around, start, pose, increment, pushed, work)
+        level = first.increment
+        far = abs(first.excess) > FAR_FROM_LEVEL * first.energy
+        if some(far):
+            level = select(far, nearer(around, start, pose, level, pushed, work).increment, level)
+        return level
 
     return levelled
 
 
-def make_forced_step(composition: Composition, method: Collocation) -> Step:
-    """Return (parameters, time, h, pose, momentum, wrench) -> (pose, momentum, report): one step of order 2s."""
-    evaluate, land = make_evaluate(composition), make_landing(composition)
-    carry = composition.water.at_stages.carry
-    weights, nodes = method.weights, method.nodes
-    sweeps = make_sweeps(method, evaluate, moved_place, place_extent, loose=True)
+class Marched(NamedTuple):
+    """What steps have come to.
 
-    def forced_step(
+    Attributes:
+        place: at their end; its way is that since the start of the first.
+        given: what the forces have added to the spatial momentum, times h: the sum of all J (G9).
+        work: of the constant wrench, times h^2.
+        report: how the sweeps fared.
+        first: the evaluations at all stages that the sweeps of the step that follows begin with.
+    """
+
+    place: Place
+    given: Spatial
+    work: float
+    report: SolverReport
+    first: ForcedStage
+
+
+March: TypeAlias = Callable[[Surroundings, bool, Marched], Marched]
+
+
+def make_following(method: Collocation) -> Callable[[Surroundings, Place, ForcedStage], ForcedStage]:
+    """Return (start, stages of the step before) -> the evaluations that their rates lead to in a step (G12)."""
+    ahead = method.ahead
+    columns = tuple(zip(*ahead, strict=True))
+    onward = tuple(
+        tuple(sum(a * e for a, e in zip(row, column, strict=True)) for column in columns)
+        for row in method.matrix
+    )
+
+    continued = make_continued(method)
+
+    def following(around: Surroundings, start: Place, found: ForcedStage) -> Any:
+        turn = stage_product(onward, found.rate.attitude)
+        rate = Place(
+            continued(around.length_squared, around.size, found.rate.momentum),
+            stage_product(ahead, found.rate.attitude),
+            found.rate.way,
+        )
+        attitude = each_stage(method.weights, quaternion_add, (start.attitude, turn))
+        return ForcedStage(rate, found.wrench, found.twist, attitude)
+
+    return following
+
+
+def make_march(composition: Composition, method: Collocation) -> March:
+    """Return (surroundings of the step's start, whether a step was before, what is before) -> a step more."""
+    weights, nodes = method.weights, method.nodes
+    sweep, following = make_forced_sweep(composition, method), make_following(method)
+    sweeps = make_sweeps(method, sweep, moved_place, place_extent, loose=True)
+
+    def march(at_start: Surroundings, ahead: bool, before: Marched) -> Marched:
+        parameters, length_squared, pushing, h, position, wrench, began, elapsed = at_start
+        start = before.place
+        size = weighted_square(length_squared, start.momentum) + pushing
+        at_nodes = each_stage(nodes, later, (elapsed, h, stage_constants(nodes, start.momentum.linear[0])))
+        around = Surroundings(parameters, length_squared, size, h, position, wrench, began, at_nodes)
+        found, report = sweeps(around, start, before.first, size, ahead)
+        end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
+        # The ways are computed after the sweeps: where no force asks for the position, these go without them.
+        ways = each_stage(weights, add, (start.way, stage_product(method.matrix, found.rate.way)))
+        given = stage_sum(weights, each_stage(weights, impulse, (found, ways)))  # (G9)
+        place = Place(end.momentum, unit(end.attitude), end.way)
+        return Marched(
+            place,
+            spatial_add(before.given, given),
+            before.work + spatial_dot(wrench, stage_sum(weights, found.twist)),
+            worst(before.report, report),
+            following(around, place, found),
+        )
+
+    return march
+
+
+def make_forced_steps(composition: Composition, method: Collocation) -> Steps:
+    """Return (parameters, time, h, steps, pose, momentum, wrench) -> (pose, momentum, report): steps of order 2s.
+
+    What the steps' pose is made consistent with, at the end of all, is the impulse of all.
+    """
+    evaluate, march, land = (
+        make_evaluate(composition),
+        make_march(composition, method),
+        make_landing(composition),
+    )
+    nodes, carry = method.nodes, composition.water.at_stages.carry
+
+    def forced_steps(
         parameters: StepParameters,
         time: float,
         h: float,
+        steps: int,
         pose: DualQuaternion,
         momentum: Spatial,
         wrench: Spatial,
@@ -150,31 +254,54 @@ def make_forced_step(composition: Composition, method: Collocation) -> Step:
         length_squared = squared_length(inertia)
         start = Place(spatial_scale(h, momentum), pose.real, spread((0.0, 0.0, 0.0), like))
         position = pose_position(pose)
+        solver = SolverReport(spread(0.0, like), spread(True, like), 0)
         at_start = Surroundings(parameters, length_squared, like, h, position, wrench, time, 0.0)
         begun = evaluate(at_start, start)
-        size = weighted_square(length_squared, start.momentum)
-        size = size + weighted_square(length_squared, begun.wrench) + smallest_normal(like)
-        elapsed = each_stage(nodes, multiplied, (h, stage_constants(nodes, like)))
-        around = Surroundings(parameters, length_squared, size, h, position, wrench, time, elapsed)
-        found, report = sweeps(around, start, begun, size)
-        end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
-        # The ways are computed after the sweeps: where no force asks for the position, these go without them.
-        ways = stage_product(method.matrix, found.rate.way)
-        given = stage_sum(weights, each_stage(weights, impulse, (found, ways)))  # (G9)
-        work = spatial_dot(wrench, stage_sum(weights, found.twist))
-        pushed = spatial_add(start.momentum, to_body(pose.real, given))
-        increment = consistent_twice(math.sqrt(length_squared), motion(start, end), pushed, end.momentum)
+        pushing = weighted_square(length_squared, begun.wrench) + smallest_normal(like)
+        first = each_stage(nodes, same, (begun,))
+        reached = Marched(start, spread(ZERO, like), spread(0.0, like), solver, first)
+        for step in range(steps):
+            at_start = Surroundings(parameters, length_squared, pushing, h, position, wrench, time, step * h)
+            reached = march(at_start, step > 0, reached)
+            if not some(reached.report.on_rest_branch):
+                break
+        given = to_body(pose.real, reached.given)
+        pushed = spatial_add(start.momentum, given)
+        moved = motion(start, reached.place)
+        increment = consistent_twice(math.sqrt(length_squared), moved, pushed, reached.place.momentum)
         energy = 0.5 * quadratic_form(inertia.inverse, start.momentum)
-        ending = Surroundings(parameters, length_squared, energy, h, position, wrench, time, h)
-        increment = land(ending, start, pose, increment, pushed, work)
-        step = as_pose(increment)
-        after = pose_renormalise(dual_multiply(pose, step))
-        impulsive = spatial_add_scaled(momentum, 1.0 / h, to_body(pose.real, given))
-        given_on = transport_momentum(pose.real, after.real, pose_position(step), impulsive)
-        after = carry(parameters.water, time, h, after)
-        return after, given_on, DriftReport(report, spread(True, like))
+        elapsed = steps * h
+        ending = Surroundings(parameters, length_squared, energy, h, position, wrench, time, elapsed)
+        increment = land(ending, start, pose, increment, pushed, reached.work)
+        step_taken = as_pose(increment)
+        after = pose_renormalise(dual_multiply(pose, step_taken))
+        impulsive = spatial_add_scaled(momentum, 1.0 / h, given)
+        given_on = transport_momentum(pose.real, after.real, pose_position(step_taken), impulsive)
+        after = carry(parameters.water, time, elapsed, after)
+        return after, given_on, DriftReport(reached.report, spread(True, like))
 
-    return forced_step
+    return forced_steps
+
+
+def one_of(steps: Steps) -> Step:
+    """Return one step, from a function that takes any number."""
+
+    def one(
+        parameters: StepParameters,
+        time: float,
+        h: float,
+        pose: DualQuaternion,
+        momentum: Spatial,
+        wrench: Spatial,
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        return steps(parameters, time, h, 1, pose, momentum, wrench)
+
+    return one
+
+
+def later(elapsed: float, h: float, node: float) -> float:
+    """Return the time of a stage."""
+    return elapsed + h * node
 
 
 def to_body(q: Quaternion, momentum: Spatial) -> Spatial:
@@ -184,9 +311,8 @@ def to_body(q: Quaternion, momentum: Spatial) -> Spatial:
 
 def motion(start: Place, end: Place) -> Increment:
     """Return the motion from one place to another."""
-    attitude = unit(end.attitude)
-    rotation = quaternion_multiply(quaternion_conjugate(start.attitude), attitude)
-    return Increment(rotation, rotate_inverse(attitude, end.way))
+    rotation = quaternion_multiply(quaternion_conjugate(start.attitude), end.attitude)
+    return Increment(rotation, rotate_inverse(end.attitude, end.way))
 
 
 def consistent_twice(length: float, increment: Increment, before: Spatial, after: Spatial) -> Increment:

@@ -35,6 +35,18 @@ class Increment(NamedTuple):
     shift: Vector3
 
 
+AT_ONCE = Increment((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+"""No motion."""
+
+
+class QuadraticTwist(NamedTuple):
+    """A twist as a quadratic in the time from the middle of a step, in half steps; per half step."""
+
+    constant: Spatial
+    linear: Spatial
+    square: Spatial
+
+
 class Twists(NamedTuple):
     """A twist as a cubic in the time from the middle of a step, in half steps; per half step."""
 
@@ -51,7 +63,12 @@ def unit(q: Quaternion) -> Quaternion:
 
 def turned(p: Quaternion, w: Vector3) -> Quaternion:
     """Return p (0, w)."""
-    return quaternion_multiply(p, quaternion_from_vector(w))
+    return (
+        -(p[1] * w[0] + p[2] * w[1] + p[3] * w[2]),
+        p[0] * w[0] + p[2] * w[2] - p[3] * w[1],
+        p[0] * w[1] + p[3] * w[0] - p[1] * w[2],
+        p[0] * w[2] + p[1] * w[1] - p[2] * w[0],
+    )
 
 
 def turned_by_four(
@@ -61,6 +78,18 @@ def turned_by_four(
     return quaternion_add(
         quaternion_add(turned(p, u), turned(q, v)), quaternion_add(turned(r, w), turned(s, x))
     )
+
+
+def turned_by_three(
+    p: Quaternion, u: Vector3, q: Quaternion, v: Vector3, r: Quaternion, w: Vector3
+) -> Quaternion:
+    """Return p (0, u) + q (0, v) + r (0, w)."""
+    return quaternion_add(quaternion_add(turned(p, u), turned(q, v)), turned(r, w))
+
+
+def crossed_by_three(a: Vector3, u: Vector3, b: Vector3, v: Vector3, c: Vector3, w: Vector3) -> Vector3:
+    """Return a x u + b x v + c x w."""
+    return add(add(cross(a, u), cross(b, v)), cross(c, w))
 
 
 def crossed_by_four(
@@ -113,10 +142,49 @@ def half_shifts(twists: Twists) -> tuple[Vector3, Vector3]:
     return add(add(s2, s4), s6), add(add(s1, s3), add(s5, s7))
 
 
+def half_turns_of_quadratic(twist: QuadraticTwist) -> tuple[Quaternion, Quaternion]:
+    """Return the same as `half_turns` of a quadratic, to degree 6 (G4)."""
+    h0, h1 = scale(0.5, twist.constant.angular), scale(0.5, twist.linear.angular)
+    h2 = scale(0.5, twist.square.angular)
+    p1 = quaternion_from_vector(h0)
+    p2 = quaternion_scale(0.5, (-dot(h0, h0), h1[0], h1[1], h1[2]))
+    third = quaternion_add(quaternion_add(turned(p2, h0), turned(p1, h1)), quaternion_from_vector(h2))
+    p3 = quaternion_scale(1.0 / 3.0, third)
+    p4 = quaternion_scale(0.25, turned_by_three(p3, h0, p2, h1, p1, h2))
+    p5 = quaternion_scale(0.2, turned_by_three(p4, h0, p3, h1, p2, h2))
+    p6 = quaternion_scale(1.0 / 6.0, turned_by_three(p5, h0, p4, h1, p3, h2))
+    even = quaternion_add(quaternion_add(p2, p4), p6)
+    return (1.0 + even[0], even[1], even[2], even[3]), quaternion_add(quaternion_add(p1, p3), p5)
+
+
+def half_shifts_of_quadratic(twist: QuadraticTwist) -> tuple[Vector3, Vector3]:
+    """Return the same as `half_shifts` of a quadratic, to degree 6 (G5)."""
+    w0, w1, w2 = twist.constant.angular, twist.linear.angular, twist.square.angular
+    s1 = twist.constant.linear
+    s2 = scale(0.5, add(twist.linear.linear, cross(s1, w0)))
+    s3 = scale(1.0 / 3.0, add(twist.square.linear, add(cross(s2, w0), cross(s1, w1))))
+    s4 = scale(0.25, crossed_by_three(s3, w0, s2, w1, s1, w2))
+    s5 = scale(0.2, crossed_by_three(s4, w0, s3, w1, s2, w2))
+    s6 = scale(1.0 / 6.0, crossed_by_three(s5, w0, s4, w1, s3, w2))
+    return add(add(s2, s4), s6), add(add(s1, s3), s5)
+
+
+def increment_of_quadratic(twist: QuadraticTwist) -> Increment:
+    """Return the motion of a whole step, from a quadratic."""
+    even, odd = half_turns_of_quadratic(twist)
+    even_shift, odd_shift = half_shifts_of_quadratic(twist)
+    return both_halves(even, odd, even_shift, odd_shift)
+
+
 def increment_of(twists: Twists) -> Increment:
-    """Return the motion of a whole step: from its start to its middle, and on to its end."""
+    """Return the motion of a whole step, from a cubic."""
     even, odd = half_turns(twists)
     even_shift, odd_shift = half_shifts(twists)
+    return both_halves(even, odd, even_shift, odd_shift)
+
+
+def both_halves(even: Quaternion, odd: Quaternion, even_shift: Vector3, odd_shift: Vector3) -> Increment:
+    """Return the motion from a step's start to its middle, and on to its end."""
     to_end = quaternion_add(even, odd)
     from_start = quaternion_conjugate(quaternion_add(even, quaternion_scale(-1.0, odd)))
     rotation = quaternion_multiply(from_start, to_end)

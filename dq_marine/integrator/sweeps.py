@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 from dq_marine.algebra.selection import by_precision, negation, select, some, spread
-from dq_marine.algebra.stages import each_stage, stage_product, stage_sum
+from dq_marine.algebra.stages import each_stage, stage_sum
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift_report import SolverReport, accepted_squared
 
@@ -17,10 +17,11 @@ ROUND_OFF_SINGLE = 3e-7  # the same in single precision
 HOPELESS = 1e4  # of the size: sweeps that change more diverge
 SLOWEST = 0.5  # of the squared change, from one sweep to the next: sweeps that shrink it less are not trusted
 LARGEST_TELLTALE = 0.01  # of the size, squared: larger changes do not tell the error
-OF_THE_ERROR = 0.0015  # see `loose`
+OF_THE_ERROR = 0.01  # see `loose`
+AHEAD = 15.0  # times as large is the change of the second sweep that begins with rates of the step before
 
-Evaluate: TypeAlias = Callable[[Any, Any], Any]
-Sweeps: TypeAlias = Callable[[Any, Any, Any, float], tuple[Any, SolverReport]]
+Sweep: TypeAlias = Callable[[Any, Any, Any], Any]
+Sweeps: TypeAlias = Callable[[Any, Any, Any, float, bool], tuple[Any, SolverReport]]
 
 
 def same(evaluation: Any) -> Any:
@@ -35,55 +36,57 @@ def kept(active: bool, new: Any, old: Any) -> Any:
 
 def make_sweeps(
     method: Collocation,
-    evaluate: Evaluate,
+    sweep_once: Sweep,
     moved: Callable[[Any, float, Any], Any],
     extent: Callable[[Any, Any], float],
     *,
     loose: bool,
 ) -> Sweeps:
-    """Return (context, start, begun, size) -> (evaluation at all stages, report): a step's stages, of y' = rate(y).
+    """Return (context, start, begun, size, ahead) -> (evaluation at all stages, report): a step's stages.
 
-    They solve y_i = start + sum_j A_ij rate_j, rate_i = evaluate(context, y_i).rate. `begun` is the evaluation at the
-    start, which the first sweep takes for all stages; changes are compared with `size`, a square. The test looks one
-    sweep ahead: two sweeps show the contraction, hence what a third would change. A body that is done waits,
-    unchanged, for those beside it. The report's `on_rest_branch` says whether they converged.
+    They solve y_i = start + sum_j A_ij rate_j for the rates at y_i. The first sweep takes `begun` for the evaluations
+    at all stages: those at the start or, where `ahead` is true, those that the rates of the step before lead to;
+    changes are compared with `size`, a square. The test looks one sweep ahead: two sweeps show the contraction, hence
+    what a third would change. A body that is done waits, unchanged, for those beside it. The report's `on_rest_branch`
+    says whether they converged.
 
     Args:
         method: of collocation.
-        evaluate: (context, y) -> a named tuple with `rate`.
+        sweep_once: (context, start, evaluation at all stages) -> the next: a named tuple with `rate`.
         moved: (y, s, rate) -> y + s rate.
         extent: (context, rate) -> the square of its size.
         loose: whether sweeps may end where the next would change less than the method errs. With s stages, sweep s + 1
             changes the rates by d, of order s + 2 in the step size: less than d^2, of order 2s + 4, is below the error
-            of the method, of order 2s + 1. Else they go on to round-off.
+            of the method, of order 2s + 1. Else they go on to round-off. Sweeps that begin with what a step before
+            leads to, of order s + 1, have changes of that order from the second on.
     """
-    matrix, weights = method.matrix, method.weights
+    weights = method.weights
     ones = (1.0,) * len(weights)
-    telling = len(weights) + 1  # the sweep whose change tells the error; tests begin with the next
-
-    def follow(start: Any, change: Any) -> Any:
-        return moved(start, 1.0, change)
+    first_telling = len(weights) + 1
 
     def squared_change(context: Any, new: Any, old: Any) -> float:
         return extent(context, moved(new, -1.0, old))
 
-    def sweeps(context: Any, start: Any, begun: Any, size: float) -> tuple[Any, SolverReport]:
+    def sweeps(context: Any, start: Any, begun: Any, size: float, ahead: bool) -> tuple[Any, SolverReport]:
+        telling = (
+            2 if ahead else first_telling
+        )  # the sweep whose change tells the error; tests begin with the next
+        larger = AHEAD * AHEAD if ahead else 1.0
         tolerance = by_precision(size, ROUND_OFF**2, ROUND_OFF_SINGLE**2) * size
-        now = each_stage(weights, same, (begun,))
+        now = begun
         active = spread(True, size)
         converged = negation(active)
         before = last = spread(math.inf, size)
         count = 0
         for sweep in range(1, MAX_SWEEPS + 1):
-            y = each_stage(weights, follow, (start, stage_product(matrix, now.rate)))
-            new = each_stage(weights, evaluate, (context, y))
+            new = sweep_once(context, start, now)
             count += 1
             if sweep >= telling:
                 change = stage_sum(ones, each_stage(weights, squared_change, (context, new.rate, now.rate)))
                 before, last = select(active, last, before), select(active, change, last)
             now = each_stage(weights, kept, (active, new, now))
             if loose and sweep == telling:
-                telltale = min(last, LARGEST_TELLTALE * size)
+                telltale = min(last / larger, LARGEST_TELLTALE * size)
                 tolerance = max(tolerance, OF_THE_ERROR**2 * (telltale * telltale / size))
             if sweep > telling:
                 contracts = last < SLOWEST * before  # not so if both are infinite

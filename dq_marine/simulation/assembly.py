@@ -50,7 +50,7 @@ def check_method(scheme: str, order: int) -> None:
     one_of("order", order, ORDERS)
     if scheme == "gauss" and order not in COLLOCATED[scheme].orders:
         raise InvalidInputError(
-            f"order = {order}, but scheme = 'gauss' has order 8 alone; give order=8, or another scheme"
+            f"order = {order}, but scheme = 'gauss' has orders 6 and 8 alone; give one of them, or another scheme"
         )
 
 
@@ -104,6 +104,11 @@ class Assembly:
             InvalidInputError: with the reason.
         """
         check_method(self.scheme, self.order)
+        if self.scheme == "gauss" and self.order == 6 and self.damping.names:
+            raise InvalidInputError(
+                "order = 6, but with damping scheme = 'gauss' is Radau's collocation, of order 7; give order=8, which "
+                "stands for it"
+            )
         if self.memory is not None and self._collocated:
             raise InvalidInputError(
                 f'scheme = {self.scheme!r} of order {self.order} knows no radiation memory; give scheme="midpoint" of '

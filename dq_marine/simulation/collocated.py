@@ -110,6 +110,6 @@ def galerkin_timing(damping: DampingTerm, step: float) -> FallbackTiming:
 
 COLLOCATED = {
     "galerkin": Collocated((4, 6, 8), compose_galerkin, galerkin_timing),
-    "gauss": Collocated((8,), compose_gauss, gauss_timing),
+    "gauss": Collocated((6, 8), compose_gauss, gauss_timing),
 }
 """By name."""

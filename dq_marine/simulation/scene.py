@@ -75,7 +75,8 @@ class Scene:
                 and energy but not variational, with damping L-stable.
             step: step size h [s]; a negative one runs time backwards, in a scene without dissipation.
             order: order of the method: 2 or 4; or 6 or 8 in a scene without damping and velocity forces, or with
-                "galerkin" in any; 8 of "gauss", which with damping is of order 7.
+                "galerkin" in any; 6 or 8 of "gauss", where 8 is of order 7 with damping, and 6, without
+                damping only, the cheaper one for a batch of free bodies.
             kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
             hydrostatics: "linear": for a vessel that floats, its waterplane's restoring force for small motions, and
                 for any other vehicle, weight and buoyancy under water; or "hull": buoyancy of the boxes of its hull at

@@ -83,8 +83,8 @@ class Settings:
         scheme: "midpoint"; "paper" for that of Xu and Halse; "galerkin" for the variational integrators whose orders
             above 2 need no substeps; or "gauss" for collocation on the momentum: without damping exact in momentum
             and energy but not variational, with damping L-stable.
-        order: of the method: 2 or 4, and 6 or 8 where nothing takes energy, or with "galerkin"; 8 of "gauss", which
-            is of order 7 with damping.
+        order: of the method: 2 or 4, and 6 or 8 where nothing takes energy, or with "galerkin"; 6 or 8 of "gauss",
+            where 8 is of order 7 with damping, and 6 the cheaper for a batch where nothing damps.
         kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
         control_period: time between actions [s].
         substeps: integrator steps in a control period.

@@ -63,6 +63,7 @@ CASES = {
     },
     "implicit node": {"l_stable": False, "linear": LINEAR, "quadratic": QUADRATIC},
     "gauss, free": {"order": 8, "scheme": "gauss", "current": CURRENT},
+    "gauss of order 6, free": {"order": 6, "scheme": "gauss", "current": CURRENT},
     "gauss, damped": {
         "order": 8,
         "scheme": "gauss",
