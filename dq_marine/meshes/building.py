@@ -13,6 +13,7 @@ from dq_marine.meshes.choices import Choices
 from dq_marine.meshes.drag import Drag, Form, estimated_drag, linear_damping
 from dq_marine.meshes.estimates import righting_stiffness, rigid_body, shape_of, speed_of, wrench_limits
 from dq_marine.meshes.hull import Hull, read_hull
+from dq_marine.meshes.limits import validity
 from dq_marine.meshes.panels import panels_of
 from dq_marine.meshes.potential_flow import PotentialFlow, Progress
 from dq_marine.meshes.radiation import Radiated, radiated
@@ -93,6 +94,7 @@ def build_vehicle(mesh: Path, choices: Choices, progress: Progress) -> BuiltVehi
         "added_mass": added.tolist(),
         "damping": damping,
         "limits": {"wrench": rounded(limits)},
+        "validity": validity(hull, choices, form),
     }
     if hull.waterline is not None:
         content["hydrostatics"] = {

@@ -45,6 +45,9 @@ def test_an_ellipsoid_makes_a_complete_vehicle(tmp_path: Path) -> None:
     np.testing.assert_array_equal(added, np.diag(added.diagonal()))
     assert (vehicle.linear_damping.diagonal() > 0.0).all()
     assert (vehicle.wrench_limits > 0.0).all()
+    assert vehicle.validity is not None
+    assert vehicle.validity.speed == 1.5
+    assert vehicle.validity.wave_height is None
 
 
 def test_a_barge_floats_as_the_textbook_says(tmp_path: Path) -> None:
@@ -61,6 +64,9 @@ def test_a_barge_floats_as_the_textbook_says(tmp_path: Path) -> None:
     np.testing.assert_allclose(vehicle.waterplane_stiffness, expected, rtol=1e-6, atol=1e-3)
     assert vehicle.hydrostatics is not None
     assert vehicle.hydrostatics.equilibrium_depth == 0.0
+    assert vehicle.validity is not None
+    crest_over_height = 0.5 * np.sqrt(0.5 * np.log(1000.0))  # of the largest of a thousand waves
+    assert vehicle.validity.wave_height == pytest.approx(draft / crest_over_height, rel=1e-3)
 
 
 def test_the_frame_of_the_mesh_changes_nothing_physical(tmp_path: Path) -> None:

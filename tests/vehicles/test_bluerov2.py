@@ -26,7 +26,7 @@ def shed(vehicle, nu):
     return np.array([0.0, side, down, 0.0, -x * down, x * side])
 
 
-@pytest.mark.parametrize("name", [*NAMES, "rexrov_with_lift"])
+@pytest.mark.parametrize("name", [*NAMES, "rexrov"])
 def test_the_lift_is_the_momentum_shed_at_the_trailing_end(name):
     """To the four digits of the file, at any motion, ahead and astern; so it takes energy."""
     vehicle = load_vehicle(name)
