@@ -53,10 +53,13 @@ def evaluations_a_step(name, with_velocity):
 
 @pytest.mark.parametrize("name", SWEPT)
 def test_sweeps_evaluate_the_forces_at_each_stage(name):
-    """How many sweeps a step takes depends on the motion; this one is slow."""
+    """How many sweeps a step takes depends on the motion; this one is slow.
+
+    A step of Gauss's method within a call begins with the rates of the step before, others with those at their start.
+    """
     begun_and_swept = evaluations_a_step(name, with_velocity=False)[0]
     assert 1 < begun_and_swept <= METHODS[name].evaluations
-    assert begun_and_swept % 4 == 1
+    assert begun_and_swept % 4 == (0 if name == "gauss8" else 1)
 
 
 @pytest.mark.parametrize("name", UNSWEPT)
