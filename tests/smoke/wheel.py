@@ -38,7 +38,7 @@ body = Scene().stepper()
 body.step((10.0, 0.0, 0.0, 0.0, 0.0, 0.0), 50)
 assert body.position_ned[0] > 0.0
 
-for name in vehicle_names():
+for name in (*vehicle_names(), "rexrov_published"):
     load_vehicle(name)
 assert load_vehicle("supply_vessel").radiation is not None
 
