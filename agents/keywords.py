@@ -15,7 +15,7 @@ from dq_marine.envs.core.registry import full_id, registered_tasks, task_named
 from dq_marine.errors import InvalidInputError
 from dq_marine.simulation.settings import Settings
 
-OTHERS = ("reward", "max_episode_steps")
+OTHERS = ("level", "reward", "max_episode_steps")
 """Keywords of every environment that are neither those of `Settings` nor the task's own."""
 
 NOT_WRITTEN = ("forces",)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol, Self
 
 import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.controllers.dp_controller import DPController
+from dq_marine.agents.controllers.reading import shown_names
+from dq_marine.agents.environments import marine
 from dq_marine.checks import one_of
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
+from dq_marine.errors import InvalidInputError
 
 BASELINES = ("controller", "zero", "random")
 """Names that `make_baseline` takes."""
@@ -27,6 +30,28 @@ class Agent(Protocol):
 
     def act(self, observation: Observation) -> Action:
         """Return the action for an observation."""
+
+
+class Controller(Agent, Protocol):
+    """An agent that flies any environment whose observation has the parts that it reads.
+
+    Attributes:
+        READS: names of these parts.
+    """
+
+    READS: ClassVar[tuple[str, ...]]
+
+    @classmethod
+    def for_env(cls, env: gym.Env[Any, Any]) -> Self:
+        """Return the controller for an environment's vehicle, actuation and control period.
+
+        Raises:
+            InvalidInputError: it cannot fly in this environment.
+        """
+
+
+CONTROLLERS: tuple[type[Controller], ...] = (DPController,)
+"""What "controller" may mean: the first of them that an environment shows enough to."""
 
 
 class ZeroAgent:
@@ -68,5 +93,23 @@ def make_baseline(name: str, env: gym.Env[Any, Any], seed: int = 0) -> Agent:
     """
     axes = int(np.prod(env.action_space.shape or ()))
     if one_of("agent", name, BASELINES) == "controller":
-        return DPController.for_env(env)
+        return controller_for(env)
     return ZeroAgent(axes) if name == "zero" else RandomAgent(axes, seed)
+
+
+def controller_for(env: gym.Env[Any, Any]) -> Agent:
+    """Return the first of `CONTROLLERS` whose parts an environment's observation has.
+
+    Raises:
+        InvalidInputError: there is none, or it cannot fly in this environment.
+    """
+    inner = marine(env)
+    shown = set(shown_names(inner))
+    for controller in CONTROLLERS:
+        if shown.issuperset(controller.READS):
+            return controller.for_env(env)
+    reads = "; ".join(f"{one.__name__} reads {', '.join(one.READS)}" for one in CONTROLLERS)
+    raise InvalidInputError(
+        f"no controller of this package flies {inner.definition.id}, which shows "
+        f"{', '.join(shown_names(inner))}: {reads}"
+    )

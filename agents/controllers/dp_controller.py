@@ -2,7 +2,9 @@
 
 The wanted acceleration in each axis is linear in error e, velocity and the error's integral,
 
-    a = k_p e - k_d nu + z,    dz/dt = k_i e,                                                          (1)
+    a = k_p e + k_d (nu_goal - nu) + a_goal + z,    dz/dt = k_i e,                                     (1)
+
+where a goal that stands still has nu_goal = a_goal = 0,
 
 and the wrench is M a less the restoring wrench, with the vehicle's full mass matrix M: Fossen's nonlinear MIMO
 PID (2021, Handbook of Marine Craft, Algorithm 15.2) but for two things. The full M takes the place of its diagonal,
@@ -15,52 +17,30 @@ Damping by the water is not cancelled: it only adds to k_d. The current is not m
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, ClassVar
 
 import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.agents.controllers.rotation import rotation_vector
+from dq_marine.agents.controllers.reading import GOAL_POSE, Reading, goal_reader, read_goal_pose
 from dq_marine.agents.controllers.wrench_mapping import WRENCH_MAPPINGS, WrenchMapping
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import ControllerSettings, LoopSettings
 from dq_marine.algebra.quaternion import world_down_in_body
 from dq_marine.checks import one_of
-from dq_marine.envs.core.marine_env import Action, MarineEnv
+from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
 from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import Vehicle
 
 Array = NDArray[np.float64]
 
-READ = (
-    "goal_position_body",
-    "goal_x_axis_body",
-    "goal_y_axis_body",
-    "linear_velocity_body",
-    "angular_velocity_body",
-)
-"""What the controller takes from an observation, which has to begin with it."""
-
 LEVEL_DOWN = np.array([0.0, 0.0, 1.0])
 """Down, seen from a level goal."""
-
-
-class Reading(NamedTuple):
-    """What the controller takes from an observation.
-
-    Attributes:
-        error_body: goal position [m] and rotation vector [rad] onto the goal's attitude, body frame, shape (6,).
-        velocity_body: over ground, Fossen's order [m/s, rad/s], shape (6,).
-        goal_to_body: rotation matrix, its columns the goal's axes, shape (3, 3).
-    """
-
-    error_body: Array
-    velocity_body: Array
-    goal_to_body: Array
 
 
 @dataclass(frozen=True)
@@ -82,24 +62,18 @@ def place_poles(settings: ControllerSettings) -> Gains:
     )
 
 
-def read_observation(observation: Observation) -> Reading:
-    """Return position and attitude error, velocity and relative attitude from an observation, shape (18,)."""
-    numbers = np.asarray(observation, dtype=np.float64)
-    x_axis, y_axis = numbers[3:6], numbers[6:9]
-    goal_to_body = np.column_stack([x_axis, y_axis, np.cross(x_axis, y_axis)])
-    error = np.concatenate([numbers[:3], rotation_vector(goal_to_body)])
-    return Reading(error, numbers[9:15], goal_to_body)
-
-
 class DPController:
     """Brings a fully actuated vehicle to the goal that it observes and holds it there.
 
     The integral z is kept in the goal's axes, which stand still in the current while the vehicle turns. Two
     measures keep it from winding up: errors beyond a reach are integrated as that reach, and a saturated actuator
-    feeds its shortfall back (back-calculation; Astrom & Rundqwist 1989, Integrator windup and how to avoid it).
+    feeds its shortfall back (back-calculation; Astrom & Rundqwist 1989, Integrator windup and how to avoid it), which
+    brings z nearer to zero and never past it: a goal that is far away would else leave an integral against it behind.
 
     An axis without actuator is left alone; the task may then be beyond the vehicle.
     """
+
+    READS: ClassVar[tuple[str, ...]] = GOAL_POSE
 
     def __init__(
         self,
@@ -107,6 +81,7 @@ class DPController:
         control_period: float,
         settings: ControllerSettings | None = None,
         actuation: str = "wrench",
+        read: Callable[[Observation], Reading] = read_goal_pose,
     ) -> None:
         """Derive the gains.
 
@@ -115,6 +90,7 @@ class DPController:
             control_period: time between actions [s].
             settings: where the poles go; None reads the preset `dp_controller`.
             actuation: what the environment's action drives, see `dq_marine.Settings`.
+            read: finds the goal in an observation; by default in its first numbers.
 
         Raises:
             InvalidInputError: the poles are too fast for the control period, or a value is wrong.
@@ -123,6 +99,7 @@ class DPController:
         chosen = settings or read_settings("dp_controller", ControllerSettings)
         self.vehicle = vehicle
         self.control_period = control_period
+        self._read = read
         self.gains = place_poles(chosen)
         self._check_rate()
         self._anti_windup_rate = 1.0 / max(chosen.anti_windup_time, control_period)
@@ -142,8 +119,9 @@ class DPController:
         Raises:
             InvalidInputError: the environment shows something else.
         """
-        inner = _readable(env)
-        return cls(inner.vehicle, inner.control_period, settings, inner.scene.actuation)
+        inner = marine(env)
+        read = goal_reader(inner)
+        return cls(inner.vehicle, inner.control_period, settings, inner.scene.actuation, read)
 
     @property
     def integral_in_goal(self) -> Array:
@@ -162,13 +140,13 @@ class DPController:
         self._integral_in_goal = np.zeros(6)
         self._down_in_goal = LEVEL_DOWN
         if env is not None:
-            goal = _readable(env).snapshot().goal_quaternion_body_to_ned
+            goal = marine(env).snapshot().goal_quaternion_body_to_ned
             if goal is not None:
                 self._down_in_goal = np.array(world_down_in_body(tuple(goal.tolist())))
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,), and advance the integral."""
-        reading = read_observation(observation)
+        reading = self._read(observation)
         wanted = self.wrench(reading)
         given = self._mapping.give(wanted, float(reading.velocity_body[0]))
         self._integrate(reading, given.wrench_body - wanted)
@@ -178,7 +156,8 @@ class DPController:
         """Return the wrench wanted now, beyond the limits if need be, shape (6,) [N, N m]."""
         acceleration = (
             self.gains.proportional * reading.error_body
-            - self.gains.derivative * reading.velocity_body
+            + self.gains.derivative * (reading.goal_velocity_body - reading.velocity_body)
+            + reading.goal_acceleration_body
             + _rotated(reading.goal_to_body, self._integral_in_goal)
         )
         wrench: Array = self._mass_matrix @ acceleration - self._restoring_wrench(reading.goal_to_body)
@@ -195,12 +174,16 @@ class DPController:
         within_reach = np.concatenate(
             [_shortened(linear, self._reaches[0]), _shortened(angular, self._reaches[1])]
         )
-        rate = (
-            self.gains.integral * within_reach
-            + self._anti_windup_rate * self._inverse_mass_matrix @ shortfall
-        )
-        rate[self._limits == 0.0] = 0.0  # what no actuator can make up for is not summed up
-        self._integral_in_goal += self.control_period * _rotated(reading.goal_to_body.T, rate)
+        gathered, fed_back = (
+            self.control_period * _rotated(reading.goal_to_body.T, np.where(self._limits == 0.0, 0.0, rate))
+            for rate in (
+                self.gains.integral * within_reach,
+                self._anti_windup_rate * self._inverse_mass_matrix @ shortfall,
+            )
+        )  # what no actuator can make up for is not summed up
+        before = self._integral_in_goal
+        relieved = np.clip(before + fed_back, np.minimum(before, 0.0), np.maximum(before, 0.0))
+        self._integral_in_goal = relieved + gathered
 
     def _check_rate(self) -> None:
         """A velocity loop held over a period T is stable for k_d T < 2 and even-tempered below 1."""
@@ -236,15 +219,3 @@ def _shortened(a: Array, reach: float) -> Array:
     """Return a vector, shortened to a length of at most `reach`."""
     length = float(np.linalg.norm(a))
     return a if length <= reach else reach / length * a
-
-
-def _readable(env: gym.Env[Any, Any]) -> MarineEnv:
-    """Return the environment inside its wrappers, if its observation begins with what the controller reads."""
-    inner = marine(env)
-    names = tuple(one.name for one in inner.observations)
-    if names[: len(READ)] != READ:
-        raise InvalidInputError(
-            f"the controller reads {', '.join(READ)}, and {inner.definition.id} shows {', '.join(names)}; give it an "
-            "environment whose observation begins with these"
-        )
-    return inner

@@ -35,6 +35,9 @@ NORMALISATION_FILE = "normalisation.pkl"
 REPLAY_BUFFER_FILE = "replay_buffer.pkl"
 LOCK_FILE = "run.lock"
 
+LARGEST_SEED = 2**32 - 1
+"""Of a run: NumPy's global generator, which stable-baselines3 seeds too, takes no larger one."""
+
 Kind = Literal["checkpoints", "best"]
 
 
@@ -144,7 +147,7 @@ class RunFolder:
         source = str(self._plan_file)
         try:
             content = json.loads(self._plan_file.read_text(encoding="utf-8"))
-            seed = whole_number("seed", content["seed"], least=0)
+            seed = whole_number("seed", content["seed"], least=0, most=LARGEST_SEED)
             versions = {str(name): str(number) for name, number in content["versions"].items()}
             settings = content["settings"]
         except OSError as error:

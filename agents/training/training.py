@@ -26,9 +26,10 @@ from dq_marine.agents.training.learners import (
     make_evaluation_envs,
     make_model,
 )
-from dq_marine.agents.training.run_folder import RunFolder, RunPlan
+from dq_marine.agents.training.run_folder import LARGEST_SEED, RunFolder, RunPlan
 from dq_marine.agents.training.snapshots import read_progress
 from dq_marine.agents.training.trained_policy import TrainedPolicy
+from dq_marine.checks import whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
 
@@ -81,14 +82,15 @@ def begin_training(
     Args:
         folder: new or empty.
         settings: what to learn, where and how.
-        seed: of networks, environments and draws.
+        seed: of networks, environments and draws, at most 2^32 - 1.
         force: replace the run in the folder.
         console: to tell progress on.
         watch: open a page that follows one of the environments.
 
     Raises:
-        InvalidInputError: the folder is taken, or the environment's keywords are wrong.
+        InvalidInputError: the folder is taken, the seed is too large, or the environment's keywords are wrong.
     """
+    whole_number("seed", seed, least=0, most=LARGEST_SEED)
     make_environment(settings.environment).close()  # so that a mistake leaves an earlier run untouched
     plan = RunPlan(settings, seed, _versions())
     with folder.begun(plan, force=force):
@@ -187,7 +189,7 @@ def _model(folder: RunFolder, plan: RunPlan) -> Model:
     if checkpoint is None:
         return make_model(plan.settings, plan.seed, folder.tensorboard)
     done = read_progress(checkpoint).timesteps
-    return load_model(plan.settings, checkpoint, plan.seed + done, folder.tensorboard)
+    return load_model(plan.settings, checkpoint, (plan.seed + done) % (LARGEST_SEED + 1), folder.tensorboard)
 
 
 def _score(folder: RunFolder, settings: TrainingSettings) -> Score:

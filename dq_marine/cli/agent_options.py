@@ -26,12 +26,14 @@ class EnvironmentOptions:
     Attributes:
         task: id of another environment.
         vehicle: a catalogue name or a file's path.
+        level: of the task's difficulty.
         current: as `parsed_current` takes it.
         keywords: as `--set` takes them.
     """
 
     task: str | None = None
     vehicle: str | None = None
+    level: str | None = None
     current: str | None = None
     keywords: tuple[str, ...] = ()
 
@@ -42,13 +44,15 @@ class EnvironmentOptions:
             InvalidInputError: an option is wrong, two contradict each other, or the environment has no such keyword.
         """
         changes = read_keywords(self.keywords)
-        for name, value in (("vehicle", self.vehicle), ("current", self.current)):
+        for name, value in (("vehicle", self.vehicle), ("level", self.level), ("current", self.current)):
             if value is not None and name in changes:
                 raise InvalidInputError(
                     f"--{name} {value} and --set {name}=... both say it; give one of them"
                 )
         if self.vehicle is not None:
             changes["vehicle"] = self.vehicle
+        if self.level is not None:
+            changes["level"] = self.level
         if self.current is not None:
             changes["current"] = parsed_current(self.current)
         if isinstance(changes.get("vehicle"), str):
@@ -60,6 +64,7 @@ class EnvironmentOptions:
         return {
             "task": self.task,
             "vehicle": self.vehicle,
+            "level": self.level,
             "current": self.current,
             "set": self.keywords or None,
         }

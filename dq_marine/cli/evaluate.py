@@ -13,6 +13,7 @@ from dq_marine.cli.options import (
     Baseline,
     CurrentOption,
     EnvironmentPresetOption,
+    LevelOption,
     PrintPresetOption,
     SetOption,
     TaskOption,
@@ -61,6 +62,7 @@ def evaluate(
     preset: EnvironmentPresetOption = None,
     task: TaskOption = None,
     vehicle: VehicleOption = None,
+    level: LevelOption = None,
     current: CurrentOption = None,
     set_: SetOption = None,
     json: Annotated[Path | None, typer.Option("--json", help="Write the scores into this file, too.")] = None,
@@ -85,7 +87,7 @@ def evaluate(
 
     runs = run or []
     baselines = agent or ([] if runs else list(Baseline))
-    options = EnvironmentOptions(task, vehicle, current, tuple(set_ or ()))
+    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
     environment = requested_environment(runs, options, preset=preset)
     if only_print:
         print_preset(environment, "environment")

@@ -12,6 +12,7 @@ from dq_marine.cli.options import (
     Baseline,
     CurrentOption,
     EnvironmentPresetOption,
+    LevelOption,
     PrintPresetOption,
     SetOption,
     TaskOption,
@@ -68,6 +69,7 @@ def fly(
     preset: EnvironmentPresetOption = None,
     task: TaskOption = None,
     vehicle: VehicleOption = None,
+    level: LevelOption = None,
     current: CurrentOption = None,
     set_: SetOption = None,
     seconds: Annotated[float, typer.Option("--seconds", help="Simulated time, in seconds.")] = 30.0,
@@ -89,7 +91,7 @@ def fly(
         raise InvalidInputError(f"--agent {agent} and --run {run} name two agents; give one of them")
     runs = [] if run is None else [run]
     baselines = [agent or Baseline.CONTROLLER] if run is None else []
-    options = EnvironmentOptions(task, vehicle, current, tuple(set_ or ()))
+    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
     environment = requested_environment(runs, options, preset=preset)
     if only_print:
         print_preset(environment, "environment")

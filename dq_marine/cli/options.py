@@ -42,6 +42,14 @@ VehicleOption = Annotated[
         show_default="bluerov2_heavy, or the preset's or run's",
     ),
 ]
+LevelOption = Annotated[
+    str | None,
+    typer.Option(
+        "--level",
+        help="Of difficulty, such as easy, medium or hard; `dq-marine tasks TASK` says what a task's levels are.",
+        show_default="none, or the preset's or run's",
+    ),
+]
 CurrentOption = Annotated[
     str | None,
     typer.Option(

@@ -66,6 +66,7 @@ def description(definition: TaskDefinition) -> tuple[TextTable, ...]:
         reward_table(definition),
         outcome_table(definition),
         keyword_table(definition),
+        *((level_table(definition),) if definition.levels else ()),
     )
 
 
@@ -111,6 +112,15 @@ def keyword_table(definition: TaskDefinition) -> TextTable:
     made = definition.settings()
     rows = [(f"`{one.name}`", repr(getattr(made, one.name))) for one in fields(definition.settings)]
     return TextTable("own keywords", ("keyword", "default"), rows)
+
+
+def level_table(definition: TaskDefinition) -> TextTable:
+    """Return the levels of difficulty, and the keywords that each stands for."""
+    rows = [
+        (f"`{level}`", ", ".join(f"`{name}={value!r}`" for name, value in keywords.items()) or "the defaults")
+        for level, keywords in definition.levels.items()
+    ]
+    return TextTable("levels", ("level", "keywords"), rows)
 
 
 def _plain(number: float) -> str:

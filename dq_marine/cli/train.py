@@ -11,6 +11,7 @@ from dq_marine.cli.common import console, examples
 from dq_marine.cli.options import (
     Algorithm,
     CurrentOption,
+    LevelOption,
     PrintPresetOption,
     SetOption,
     TaskOption,
@@ -70,10 +71,13 @@ def train(
     ] = None,
     seed: Annotated[
         int | None,
-        typer.Option("--seed", min=0, help="Seed of networks, starts and currents.", show_default="0"),
+        typer.Option(
+            "--seed", min=0, help="Seed of networks, starts and currents, at most 2^32 - 1.", show_default="0"
+        ),
     ] = None,
     task: TaskOption = None,
     vehicle: VehicleOption = None,
+    level: LevelOption = None,
     current: CurrentOption = None,
     set_: SetOption = None,
     resume: Annotated[
@@ -95,7 +99,7 @@ def train(
 
     if run is None and (resume or not only_print):
         raise typer.BadParameter("name a folder for the run, as in --run runs/ppo", param_hint="--run")
-    options = EnvironmentOptions(task, vehicle, current, tuple(set_ or ()))
+    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
     if resume:
         _refuse_with_resume(
             algorithm=algorithm, preset=preset, envs=envs, seed=seed, force=force, **options.given()

@@ -97,11 +97,13 @@ class ComposedTask:
         reward: Any,
         extra_rewards: Sequence[RewardTerm],
         settings: Settings | None,
+        level: str | None,
         keywords: dict[str, Any],
     ) -> None:
         """Check everything and prepare the vehicles; see `MarineEnv` for the arguments."""
         definition = task_named(task)
-        given: dict[str, Any] = dict(keywords) if vehicle is None else {**keywords, "vehicle": vehicle}
+        asked = dict(keywords) if vehicle is None else {**keywords, "vehicle": vehicle}
+        given = definition.at_level(level, asked)
         of_task = {name: given.pop(name) for name in list(given) if name not in SETTINGS}
         if settings is not None and given:
             raise InvalidInputError(f"settings and {sorted(given)} are given; give the one or the others")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dq_marine.algebra.quaternion import Quaternion
 from dq_marine.algebra.vector3 import Vector3
-from dq_marine.checks import finite_number, shown
+from dq_marine.checks import finite_number, one_of, shown
 from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.task.protocol import Task
 
@@ -112,6 +112,7 @@ class TaskDefinition:
         goal: (parameters, memory) -> the goal to be drawn.
         goal_reward: (parameters, weights, achieved goal, desired goal) -> the term `goal` of the reward, with its
             weight, of a task whose observation has goals among its parts: for `compute_reward` and hindsight replay.
+        levels: of difficulty, by name, the easiest first: keywords of the task and of `dq_marine.Settings`.
         unsuitable: (vehicle) -> why the task cannot be done with it; None where it can.
         vehicle: the default one.
         control_period: the default one [s].
@@ -133,6 +134,7 @@ class TaskDefinition:
     tolerances: Mapping[str, float] = field(default_factory=dict)
     goal: Callable[[Any, Any], Goal | None] = no_goal
     goal_reward: Callable[[Any, Any, Any, Any], float] | None = None
+    levels: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     unsuitable: Callable[[Vehicle], str | None] = suits_all
     vehicle: str = "bluerov2_heavy"
     control_period: float = 0.1
@@ -158,6 +160,18 @@ class TaskDefinition:
     def keywords(self) -> tuple[str, ...]:
         """Names of its own keywords."""
         return tuple(one.name for one in fields(self.settings))
+
+    def at_level(self, level: str | None, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return keywords, with those of a level of difficulty for what is not given; None is no level.
+
+        Raises:
+            InvalidInputError: the task has no such level.
+        """
+        if level is None:
+            return dict(given)
+        if not self.levels:
+            raise InvalidInputError(f"level = {shown(level)}, and {self.id} has no levels; leave it out")
+        return {**self.levels[one_of("level", level, self.levels)], **given}
 
     def checked_settings(self, given: Mapping[str, Any], vehicle: Vehicle) -> Any:
         """Return the task's settings for a vehicle.

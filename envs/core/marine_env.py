@@ -70,6 +70,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         reward: Any = None,
         extra_rewards: Sequence[RewardTerm] = (),
         settings: Settings | None = None,
+        level: str | None = None,
         render_mode: str | None = None,
         record: bool = False,
         **keywords: Unpack[SettingsKeywords],
@@ -82,6 +83,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             reward: a dictionary of weights of the reward's terms, and of what else shapes it, that are not the default.
             extra_rewards: terms that are added to it.
             settings: what is simulated, as an object; or else
+            level: of difficulty, one of the task's `levels`: stands for keywords, over which those that are given win.
             keywords: those of `Settings`, with the task's own defaults, and the task's own keywords.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.
@@ -93,7 +95,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         Warns:
             UnsuitableVehicleWarning: the task cannot be done with this vehicle.
         """
-        self._prepare(task, vehicle, reward, extra_rewards, settings, dict(keywords))
+        self._prepare(task, vehicle, reward, extra_rewards, settings, level, dict(keywords))
         self.render_mode = checked_render_mode(render_mode, self.metadata["render_modes"])
         self.record = bool(record)
         self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]

@@ -174,6 +174,16 @@ def test_a_wrong_environment_leaves_an_earlier_run_alone(tmp_path: Path, console
     TrainedPolicy(folder)
 
 
+@pytest.mark.parametrize("seed", [2**32, -1])
+def test_a_seed_that_numpy_does_not_take_is_refused_before_anything_is_written(
+    tmp_path: Path, console: Console, seed: int
+) -> None:
+    """The campaign of hostile cases found this: case 10,097,921."""
+    with pytest.raises(InvalidInputError, match=r"seed = .*(from 0 to 4294967295|0 or more)"):
+        begin_training(RunFolder(tmp_path / "run"), tiny(tmp_path, "ppo", 64), seed=seed, console=console)
+    assert not (tmp_path / "run").exists()
+
+
 def test_a_policy_is_refused_where_it_does_not_fit(tmp_path: Path, console: Console) -> None:
     folder = RunFolder(tmp_path / "run")
     begin_training(folder, tiny(tmp_path, "ppo", 64), console=console)
