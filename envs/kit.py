@@ -5,6 +5,7 @@ Import functions by name, not through this module: what is compiled finds them b
 
 from __future__ import annotations
 
+from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.quaternion import (
     Quaternion,
     quaternion_conjugate,
@@ -25,21 +26,36 @@ from dq_marine.algebra.vector3 import (
     scale,
     subtract,
 )
-from dq_marine.checks import finite_array, finite_number
-from dq_marine.envs.core.definition import EpisodeContext, Goal, Observed
+from dq_marine.checks import finite_array, finite_number, one_of
+from dq_marine.envs.core.definition import EpisodeContext, Goal, Observed, goal_along
 from dq_marine.envs.core.module_task import define_task
-from dq_marine.envs.core.observed import VELOCITY
+from dq_marine.envs.core.observed import GOAL_MOTION, VELOCITY
 from dq_marine.envs.core.places import goal_place
-from dq_marine.envs.core.suitability import unable_to_hold_a_pose, unable_to_travel
+from dq_marine.envs.core.suitability import (
+    speed_ahead,
+    too_slow,
+    unable_to_hold_a_pose,
+    unable_to_keep_up,
+    unable_to_travel,
+)
 from dq_marine.integrator.body import Motion
-from dq_marine.task.common import effort, make_pick, observed_velocity
+from dq_marine.task.common import SPEED_BOUND, effort, make_pick, observed_curve_motion, observed_velocity
+from dq_marine.task.harmonics import Curve, CurvePoint, curve_point, level_course, moved_to
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.shapes import SHAPE_DRAWS, SHAPES, STEEPEST, shaped_curve
 from dq_marine.task.starts import SLOW_START_DRAWS, make_walk, slow_start, symmetric3
 
 __all__ = [
+    "GOAL_MOTION",
+    "SHAPES",
+    "SHAPE_DRAWS",
     "SLOW_START_DRAWS",
+    "SPEED_BOUND",
+    "STEEPEST",
     "VELOCITY",
     "ZERO",
+    "Curve",
+    "CurvePoint",
     "EpisodeContext",
     "Goal",
     "Motion",
@@ -53,25 +69,36 @@ __all__ = [
     "add_scaled",
     "bounded",
     "bounded_vector",
+    "curve_point",
     "define_task",
     "dot",
     "effort",
     "finite_array",
     "finite_number",
+    "goal_along",
     "goal_place",
+    "level_course",
     "make_pick",
     "make_walk",
+    "moved_to",
     "norm",
+    "observed_curve_motion",
     "observed_velocity",
+    "one_of",
     "quaternion_conjugate",
+    "quaternion_from_euler",
     "quaternion_multiply",
     "rotate",
     "rotate_inverse",
     "scale",
     "select",
+    "shaped_curve",
     "slow_start",
+    "speed_ahead",
     "subtract",
     "symmetric3",
+    "too_slow",
     "unable_to_hold_a_pose",
+    "unable_to_keep_up",
     "unable_to_travel",
 ]

@@ -95,7 +95,6 @@ def fit(
     from dq_marine.vehicles import load_vehicle
 
     target = out or Path(f"{Path(vehicle).stem}_fitted.toml")
-    picture = None if no_plot else plot or target.with_suffix(".png")
     conditions = Conditions(
         groups=tuple(part.strip() for part in groups.split(",")),
         bound=bound,
@@ -104,6 +103,7 @@ def fit(
         current=read_value(current, option="--current"),
     )
     check_vehicle_path(target, force=force)
+    picture = None if no_plot else plot or target.with_suffix(".png")
     if picture is not None:
         from dq_marine.identification.residual_plot import check_plot_path
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from dq_marine.algebra.quaternion import Quaternion, rotate_inverse
 from dq_marine.algebra.selection import select
-from dq_marine.algebra.vector3 import Vector3, bounded_vector
+from dq_marine.algebra.vector3 import Vector3, bounded_vector, scale
 from dq_marine.integrator.body import Motion
+from dq_marine.task.harmonics import CurvePoint, course_rate
 from dq_marine.task.protocol import Situation
 
 SPEED_BOUND = 10.0
@@ -18,6 +20,28 @@ def observed_velocity(measured: Motion) -> tuple[Vector3, Vector3]:
     """Return linear and angular velocity over ground in the body frame [m/s, rad/s], within `SPEED_BOUND`."""
     velocity = measured.velocity
     return (bounded_vector(velocity.linear, SPEED_BOUND), bounded_vector(velocity.angular, SPEED_BOUND))
+
+
+def observed_curve_motion(
+    point: CurvePoint, rate: float, attitude: Quaternion
+) -> tuple[Vector3, Vector3, Vector3]:
+    """Return velocity [m/s], turn rate of the course [rad/s] and acceleration [m/s^2] of a point on a curve.
+
+    They are over ground, in the axes of a body, and within `SPEED_BOUND`.
+
+    Args:
+        point: on the curve.
+        rate: of its phase [rad/s].
+        attitude: of the body, body to NED.
+    """
+    velocity = rotate_inverse(attitude, scale(rate, point.slope_ned))
+    turning = rotate_inverse(attitude, (0.0, 0.0, course_rate(point, rate)))
+    acceleration = rotate_inverse(attitude, scale(rate * rate, point.bend_ned))
+    return (
+        bounded_vector(velocity, SPEED_BOUND),
+        bounded_vector(turning, SPEED_BOUND),
+        bounded_vector(acceleration, SPEED_BOUND),
+    )
 
 
 def effort(weight: float, now: Situation) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.quaternion import Quaternion
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.checks import finite_number, one_of, shown
@@ -54,6 +56,12 @@ class Goal(NamedTuple):
 
     position_ned: Vector3
     attitude: Quaternion = (1.0, 0.0, 0.0, 0.0)
+
+
+def goal_along(position_ned: Vector3, direction_ned: Vector3) -> Goal:
+    """Return a level goal at a position [m] that heads along a direction, seen from above."""
+    heading = math.atan2(direction_ned[1], direction_ned[0])
+    return Goal(position_ned, quaternion_from_euler(0.0, 0.0, heading))
 
 
 class EpisodeContext(NamedTuple):

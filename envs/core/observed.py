@@ -10,3 +10,10 @@ VELOCITY = (
     Observed("angular_velocity_body", "rad/s", 3, SPEED_BOUND, "roll, pitch and yaw rate"),
 )
 """What `dq_marine.task.common.observed_velocity` gives."""
+
+GOAL_MOTION = (
+    Observed("goal_velocity_body", "m/s", 3, SPEED_BOUND, "how fast the goal goes, over ground"),
+    Observed("goal_turn_rate_body", "rad/s", 3, SPEED_BOUND, "how fast its course turns"),
+    Observed("goal_acceleration_body", "m/s^2", 3, SPEED_BOUND, "its acceleration"),
+)
+"""What `dq_marine.task.common.observed_curve_motion` gives."""

@@ -9,6 +9,16 @@ if TYPE_CHECKING:
 
 SURGE, SWAY, YAW = 0, 1, 5
 
+SLOWEST = 10.0
+"""Time in which a vehicle that is quick enough for episodes of half a minute goes its own length [s]."""
+
+
+def speed_ahead(vehicle: Vehicle) -> float:
+    """Return the speed through the water at which a vehicle's drag equals the most that drives it ahead [m/s]."""
+    from dq_marine.vehicles.analysis.sheet import terminal_speed  # here: `import dq_marine` stays light
+
+    return terminal_speed(vehicle, SURGE)
+
 
 def unable_to_hold_a_pose(vehicle: Vehicle) -> str | None:
     """Return why a vehicle cannot hold a pose in a current; None if it can."""
@@ -27,3 +37,19 @@ def unable_to_travel(vehicle: Vehicle) -> str | None:
     if limits[SURGE] and (limits[SWAY] or limits[YAW]):
         return None
     return "the task goes from place to place, and the vehicle cannot drive ahead and turn"
+
+
+def unable_to_keep_up(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle cannot keep a pose that moves, in half a minute; None if it can."""
+    return unable_to_hold_a_pose(vehicle) or too_slow(vehicle)
+
+
+def too_slow(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle gets nowhere in an episode of half a minute; None if it does."""
+    speed = speed_ahead(vehicle)
+    if speed * SLOWEST >= vehicle.dimensions.length:
+        return None
+    return (
+        f"the task takes half a minute, and the vehicle needs more than {SLOWEST:g} s to go its own length, "
+        f"{vehicle.dimensions.length:g} m, at {speed:.2g} m/s"
+    )

@@ -232,12 +232,6 @@ def goal(own: Parameters, memory: Memory) -> Goal:
     return Goal(own.position_ned, own.attitude)
 
 
-LEVELS = {
-    "easy": {"current": 0.0, "start_radius": 1.0},
-    "medium": {"current": 0.3},
-    "hard": {"current": 0.5, "randomise": "default", "sensors": "auv"},
-}
-
 define_task(
     globals(),
     id="dq_marine/StationKeeping-v0",
@@ -246,7 +240,11 @@ define_task(
     options={"goal_position": 3, "goal_quaternion": 4},
     episode_fields=("position_ned", "attitude"),
     units={"position_error": "m", "attitude_error": "rad"},
-    levels=LEVELS,
+    levels={
+        "easy": {"current": 0.0, "start_radius": 1.0},
+        "medium": {"current": 0.3},
+        "hard": {"current": 0.5, "randomise": "default", "sensors": "auv"},
+    },
     unsuitable=unable_to_hold_a_pose,
     tolerances={"position_error": 0.05, "attitude_error": math.radians(2.0)},
 )

@@ -56,5 +56,5 @@ def test_the_readme_names_every_setting_and_keyword():
     named = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
     own = {name for task in registered_tasks() for name in task.keywords}
     known = {one.name for one in fields(Settings)} | own
-    known |= {"reward", "extra_rewards", "settings", "render_mode", "record"}
+    known |= {"level", "reward", "extra_rewards", "settings", "render_mode", "record"}
     assert named == known

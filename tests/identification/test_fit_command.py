@@ -97,6 +97,12 @@ def test_a_bad_log_writes_nothing(folder):
     assert [path.name for path in folder.iterdir()] == ["run.csv"]
 
 
+@pytest.mark.parametrize("place", [".", "/", "..", ""])
+def test_a_folder_is_no_file_for_a_vehicle(folder, place):
+    """The campaign of hostile cases found this: case 11,037,024."""
+    assert_refused(fit("--out", place), r"has the ending ''; give a file that ends in \.toml")
+
+
 def test_help_teaches_the_log():
     text = run("vehicles", "fit", "--help").output
     for word in ("time_s", "u_m_s", "added_mass_full", "--log", "fly --trajectory"):

@@ -18,8 +18,8 @@ same = partial(data_equivalence, exact=True)
 class Separate:
     """Separate environments made by `gym.make`, each reset in the step after its end."""
 
-    def __init__(self, count, **keywords):
-        self.envs = [gym.make(ID, disable_env_checker=True, **keywords) for _ in range(count)]
+    def __init__(self, count, task=ID, **keywords):
+        self.envs = [gym.make(task, disable_env_checker=True, **keywords) for _ in range(count)]
         self.ended = [False] * count
 
     def reset(self, seed=None, rows=None):

@@ -5,7 +5,7 @@ import pytest
 from support.environments import WAYPOINT_TRACKING, StationKeepingEnv
 
 from dq_marine.envs.core.definition import TaskDefinition
-from dq_marine.envs.core.registry import registered_tasks, task_called
+from dq_marine.envs.core.registry import task_called
 from dq_marine.errors import InvalidInputError
 
 STATION_KEEPING = "dq_marine/StationKeeping-v0"
@@ -44,9 +44,3 @@ def test_a_task_without_levels_says_so():
     bare = TaskDefinition(**{**vars(without), "levels": {}})
     with pytest.raises(InvalidInputError, match="has no levels; leave it out"):
         bare.at_level("easy", {})
-
-
-@pytest.mark.parametrize("task", registered_tasks(), ids=lambda one: one.id)
-def test_the_levels_of_all_tasks_can_be_made(task):
-    for level in task.levels:
-        gym.make(task.id, level=level)

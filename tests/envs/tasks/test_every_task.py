@@ -1,0 +1,117 @@
+"""What holds for every task that ships with every vehicle that it suits: the registry tells, so that none escapes."""
+
+import pickle
+import warnings
+from pathlib import Path
+
+import gymnasium as gym
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from support.separate import Separate, assert_flights_agree
+from support.sweeps import sweep
+
+import dq_marine
+from dq_marine.envs.core.registry import registered_tasks, short_name
+from dq_marine.vehicles import load_vehicle, vehicle_names
+
+TASKS = {short_name(one): one for one in registered_tasks() if one.id.startswith("dq_marine/")}
+FLIGHTS = [
+    (name, vehicle)
+    for name, task in TASKS.items()
+    for vehicle in vehicle_names()
+    if task.unsuitable(load_vehicle(vehicle)) is None
+]
+"""Every task with every vehicle of the catalogue that it suits."""
+
+DEFAULTS = [(name, task.vehicle) for name, task in TASKS.items()]
+
+every_flight = pytest.mark.parametrize(("task", "vehicle"), sweep(FLIGHTS, plain=DEFAULTS))
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_both_checkers_pass(task):
+    from stable_baselines3.common.env_checker import check_env as check_env_sb3
+
+    env = gym.make(TASKS[task].id)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(env.unwrapped, skip_render_check=True)
+        check_env_sb3(env.unwrapped)
+
+
+@every_flight
+def test_lanes_are_single_environments_bit_for_bit(task, vehicle):
+    limits = {"vehicle": vehicle, "max_episode_steps": 90}
+    envs = gym.make_vec(TASKS[task].id, num_envs=3, **limits)
+    assert_flights_agree(envs, Separate(3, TASKS[task].id, **limits), 300, seed=1)
+
+
+@every_flight
+def test_ten_thousand_random_steps_stay_finite_and_within_the_observation_space(task, vehicle):
+    envs = gym.make_vec(TASKS[task].id, num_envs=40, vehicle=vehicle)
+    envs.reset(seed=5)
+    envs.action_space.seed(5)
+    for _ in range(250):
+        observations, rewards, *_ = envs.step(envs.action_space.sample())
+        assert np.isfinite(rewards).all()
+        assert observations in envs.observation_space
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_an_environment_that_was_pickled_goes_on_alike(task):
+    env = gym.make(TASKS[task].id)
+    env.reset(seed=3)
+    actions = np.random.default_rng(3).uniform(-1.0, 1.0, (20, *env.action_space.shape)).astype(np.float32)
+    for action in actions[:10]:
+        env.step(action)
+    other = pickle.loads(pickle.dumps(env))
+    for action in actions[10:]:
+        ours, theirs = env.step(action), other.step(action)
+        assert np.array_equal(ours[0], theirs[0])
+        assert ours[1:4] == theirs[1:4]
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_an_episode_can_be_kept_and_shown(task, tmp_path):
+    env = gym.make(TASKS[task].id, record=True).unwrapped
+    env.reset(seed=0)
+    for _ in range(5):
+        env.step(np.zeros(env.action_space.shape, np.float32))
+    replay = tmp_path / "replay.html"
+    env.save_html(replay)
+    assert replay.stat().st_size > 10_000
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("task", TASKS)
+def test_a_picture_is_drawn(task):
+    env = gym.make(TASKS[task].id, render_mode="rgb_array")
+    env.reset(seed=0)
+    picture = env.render()
+    env.close()
+    assert picture.dtype == np.uint8
+    assert picture.std() > 5.0  # there is something to see
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_task_is_one_file_of_at_most_250_lines_that_nobody_imports(task):
+    module = TASKS[task].parameters.__module__
+    folder = Path(dq_marine.__file__).parent
+    file = folder / Path(*module.split(".")[1:]).with_suffix(".py")
+    assert len(file.read_text(encoding="utf-8").splitlines()) <= 250
+    name = module.rpartition(".")[2]
+    importing = [
+        other
+        for other in folder.rglob("*.py")
+        if f"tasks.{name}" in other.read_text(encoding="utf-8")
+        or f"import {name}" in other.read_text(encoding="utf-8")
+    ]
+    assert importing == []
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_every_level_can_be_flown(task):
+    definition = TASKS[task]
+    for level in definition.levels:
+        gym.make(definition.id, level=level)
