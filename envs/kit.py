@@ -36,6 +36,7 @@ from dq_marine.envs.core.suitability import (
     too_slow,
     unable_to_hold_a_pose,
     unable_to_keep_up,
+    unable_to_position,
     unable_to_travel,
 )
 from dq_marine.integrator.body import Motion
@@ -100,5 +101,6 @@ __all__ = [
     "too_slow",
     "unable_to_hold_a_pose",
     "unable_to_keep_up",
+    "unable_to_position",
     "unable_to_travel",
 ]

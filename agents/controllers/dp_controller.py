@@ -39,6 +39,9 @@ from dq_marine.vehicles import Vehicle
 
 Array = NDArray[np.float64]
 
+FAR = (0.1, 0.3)
+"""An error at which the actuators may be at their limit: in position [vehicle lengths], in attitude [rad]."""
+
 LEVEL_DOWN = np.array([0.0, 0.0, 1.0])
 """Down, seen from a level goal."""
 
@@ -59,6 +62,38 @@ def place_poles(settings: ControllerSettings) -> Gains:
     w_i = _six(settings, "integral_rate")
     return Gains(
         proportional=w**2 + 2.0 * zeta * w * w_i, derivative=2.0 * zeta * w + w_i, integral=w**2 * w_i
+    )
+
+
+def within_authority(settings: ControllerSettings, vehicle: Vehicle) -> ControllerSettings:
+    """Return settings that are slowed down for a vehicle whose actuators are weak for its mass, such as a ship.
+
+    With them an error of `FAR` asks for no more acceleration than the actuators give. The response is the same but for
+    its time scale; a ship's position is wanted less exactly than that of an ROV, but its heading is not.
+    """
+    strength = vehicle.wrench_limits / np.diag(vehicle.mass_matrix)
+    far = np.repeat([FAR[0] * vehicle.dimensions.length, FAR[1]], 3)
+    fastest = np.sqrt(strength / far)
+    rates = {}
+    for name, axes in (("position", slice(3)), ("attitude", slice(3, 6))):
+        loop: LoopSettings = getattr(settings, name)
+        attainable = fastest[axes][fastest[axes] > 0.0]
+        rates[name] = min(1.0, *(attainable / loop.bandwidth)) if attainable.size else 1.0
+    return ControllerSettings(
+        position=_slowed(
+            settings.position, rates["position"], settings.position.integral_reach / rates["position"]
+        ),
+        attitude=_slowed(settings.attitude, rates["attitude"], settings.attitude.integral_reach),
+        anti_windup_time=settings.anti_windup_time / min(rates.values()),
+    )
+
+
+def _slowed(loop: LoopSettings, rate: float, integral_reach: float) -> LoopSettings:
+    return LoopSettings(
+        bandwidth=rate * loop.bandwidth,
+        damping_ratio=loop.damping_ratio,
+        integral_rate=rate * loop.integral_rate,
+        integral_reach=integral_reach,
     )
 
 
@@ -96,7 +131,8 @@ class DPController:
             InvalidInputError: the poles are too fast for the control period, or a value is wrong.
             MissingDependencyError: thrusters are to be driven, and SciPy is not installed.
         """
-        chosen = settings or read_settings("dp_controller", ControllerSettings)
+        preset = settings or read_settings("dp_controller", ControllerSettings)
+        chosen = within_authority(preset, vehicle)
         self.vehicle = vehicle
         self.control_period = control_period
         self._read = read

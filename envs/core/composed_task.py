@@ -298,6 +298,7 @@ def _defaults(definition: TaskDefinition) -> dict[str, Any]:
         "current": None,
         "control_period": definition.control_period,
         "substeps": definition.substeps,
+        **definition.surroundings,
     }
 
 

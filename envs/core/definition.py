@@ -122,6 +122,7 @@ class TaskDefinition:
             weight, of a task whose observation has goals among its parts: for `compute_reward` and hindsight replay.
         levels: of difficulty, by name, the easiest first: keywords of the task and of `dq_marine.Settings`.
         unsuitable: (vehicle) -> why the task cannot be done with it; None where it can.
+        surroundings: defaults of other keywords of `dq_marine.Settings`, by name, where the task has its own.
         vehicle: the default one.
         control_period: the default one [s].
         substeps: the default number of integrator steps in a control period.
@@ -144,6 +145,7 @@ class TaskDefinition:
     goal_reward: Callable[[Any, Any, Any, Any], float] | None = None
     levels: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     unsuitable: Callable[[Vehicle], str | None] = suits_all
+    surroundings: Mapping[str, Any] = field(default_factory=dict)
     vehicle: str = "bluerov2_heavy"
     control_period: float = 0.1
     substeps: int = 4

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 SURGE, SWAY, YAW = 0, 1, 5
 
-SLOWEST = 10.0
+SLOWEST = 5.0
 """Time in which a vehicle that is quick enough for episodes of half a minute goes its own length [s]."""
 
 
@@ -53,3 +53,13 @@ def too_slow(vehicle: Vehicle) -> str | None:
         f"the task takes half a minute, and the vehicle needs more than {SLOWEST:g} s to go its own length, "
         f"{vehicle.dimensions.length:g} m, at {speed:.2g} m/s"
     )
+
+
+def unable_to_position(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle is no vessel that keeps its place by thrusters; None if it is."""
+    if vehicle.hydrostatics is None:
+        return "the task is for vessels that float"
+    sideways = any(abs(thruster.direction[1]) > 0.5 for thruster in vehicle.thrusters)
+    if not (sideways or vehicle.azimuths):
+        return "the task is done by thrusters, and the vehicle's file has none that push sideways"
+    return unable_to_hold_a_pose(vehicle)

@@ -33,7 +33,7 @@ from dq_marine.envs.kit import (
     rotate_inverse,
     slow_start,
     subtract,
-    unable_to_hold_a_pose,
+    unable_to_keep_up,
 )
 from dq_marine.errors import InvalidInputError
 
@@ -245,6 +245,6 @@ define_task(
         "medium": {"current": 0.3},
         "hard": {"current": 0.5, "randomise": "default", "sensors": "auv"},
     },
-    unsuitable=unable_to_hold_a_pose,
+    unsuitable=unable_to_keep_up,
     tolerances={"position_error": 0.05, "attitude_error": math.radians(2.0)},
 )
