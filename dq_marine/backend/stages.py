@@ -1,8 +1,10 @@
 """`algebra.stages` in compiled code: the stages of a body side by side in an LLVM vector.
 
 Stages of one body are `Lanes`, one for each stage. Those of bodies in lanes are lanes, too, as many times as there are
-stages: first all bodies at the first stage, then all at the second. Both kinds know how many `stages` they hold. What
-a method with one stage has at its stage is an ordinary number.
+stages: an array of vectors, all bodies at one stage in each. Both kinds know how many `stages` they hold. Functions are
+called once for all stages of one body, but of bodies in lanes stage by stage: their vectors are full, and one of all
+stages would not fit into the processor's registers. What a method with one stage has at its stage is an ordinary
+number.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ def of_one_stage(kind: types.Type) -> types.Type:
     """Return the ordinary type of a number at several stages; an ordinary one stays."""
     if not isinstance(kind, Lanes) or kind.stages == 1:
         return kind
-    return kind.of_one_stage() if kind.width > kind.stages else kind.dtype
+    return kind.of_one_stage() if kind.piled else kind.dtype
 
 
 def has_stages(kind: types.Type) -> bool:
@@ -71,10 +73,9 @@ def widened(context: Any, builder: Any, kind: types.Type, result: Lanes, value: 
     """Return an ordinary number as stages that all hold it; stages stay."""
     if kind == result:
         return value
-    if not isinstance(kind, Lanes):
+    if not result.piled:
         return as_lanes(context, builder, value, kind, result)
-    places = [place % kind.width for place in range(result.width)]
-    return shuffled(builder, value, places)
+    return joined(builder, [as_lanes(context, builder, value, kind, result.of_one_stage())] * result.stages)
 
 
 def shuffled(builder: Any, value: Any, places: list[int]) -> Any:
@@ -87,28 +88,24 @@ def taken(builder: Any, kind: types.Type, value: Any, stage: int) -> Any:
     """Return one stage of a number; an ordinary one stays."""
     if not isinstance(kind, Lanes) or kind.stages == 1:
         return value
-    bodies = kind.width // kind.stages
-    if bodies == 1:
-        return builder.extract_element(value, ir.Constant(ir.IntType(32), stage))
-    return shuffled(builder, value, list(range(stage * bodies, (stage + 1) * bodies)))
+    if kind.piled:
+        return builder.extract_value(value, stage)
+    return builder.extract_element(value, ir.Constant(ir.IntType(32), stage))
 
 
 def joined(builder: Any, parts: list[Any]) -> Any:
-    """Return the numbers of several stages, numbers or vectors, side by side in one vector."""
+    """Return the numbers of several stages: numbers side by side in a vector, vectors in an array."""
     if len(parts) == 1:
         return parts[0]
-    if not isinstance(parts[0].type, ir.VectorType):
-        vector = ir.Constant(ir.VectorType(parts[0].type, len(parts)), ir.Undefined)
+    if isinstance(parts[0].type, ir.VectorType):
+        whole = ir.Constant(ir.ArrayType(parts[0].type, len(parts)), ir.Undefined)
         for place, part in enumerate(parts):
-            vector = builder.insert_element(vector, part, ir.Constant(ir.IntType(32), place))
-        return vector
-    half = (len(parts) + 1) // 2
-    first, second = joined(builder, parts[:half]), joined(builder, parts[half:])
-    size, rest = first.type.count, second.type.count
-    if rest < size:  # a shuffle takes vectors of one size
-        second = shuffled(builder, second, [place % rest for place in range(size)])
-    mask = ir.Constant(ir.VectorType(ir.IntType(32), size + rest), list(range(size + rest)))
-    return builder.shuffle_vector(first, second, mask)
+            whole = builder.insert_value(whole, part, place)
+        return whole
+    whole = ir.Constant(ir.VectorType(parts[0].type, len(parts)), ir.Undefined)
+    for place, part in enumerate(parts):
+        whole = builder.insert_element(whole, part, ir.Constant(ir.IntType(32), place))
+    return whole
 
 
 def swapped(builder: Any, value: Any, count: int) -> list[Any]:
@@ -252,26 +249,46 @@ def matrix_product(typing_context: Any, matrix: Any, structure: Any) -> Any:
             weights_of(context, builder, matrix.types[i], builder.extract_value(values[0], i), count, one)
             for i in range(count)
         ]
-        swap = lanes.width == count and count in (2, 4)
-        # The stage that meets stage i in term j: stage j, or the partner that flipped bits of i name.
-        partners = [[i ^ j if swap else j for i in range(count)] for j in range(count)]
-        columns = [joined(builder, [rows[i][partner[i]] for i in range(count)]) for partner in partners]
+        product = stage_by_stage if lanes.piled else side_by_side
 
         def each(kind: Any, wide: Any, value: Any) -> Any:
             whole = widened(context, builder, kind, lanes, value)
-            if swap:
-                parts = swapped(builder, whole, count)
-            else:
-                parts = [
-                    widened(context, builder, one, lanes, taken(builder, lanes, whole, j))
-                    for j in range(count)
-                ]
-            terms = [builder.fmul(a, x, lanes.flags) for a, x in zip(columns, parts, strict=True)]
-            return summed(builder, terms, lanes.flags)
+            return product(builder, rows, whole, lanes)
 
         return rebuilt(context, builder, structure, result, values[1], each)
 
     return signature(result, matrix, structure), generate
+
+
+def stage_by_stage(builder: Any, rows: list[list[Any]], whole: Any, lanes: Lanes) -> Any:
+    """Return a matrix product of stages that are piled up."""
+    parts = [builder.extract_value(whole, j) for j in range(len(rows))]
+    return joined(
+        builder,
+        [
+            summed(
+                builder,
+                [builder.fmul(a, x, lanes.flags) for a, x in zip(row, parts, strict=True)],
+                lanes.flags,
+            )
+            for row in rows
+        ],
+    )
+
+
+def side_by_side(builder: Any, rows: list[list[Any]], whole: Any, lanes: Lanes) -> Any:
+    """Return a matrix product of stages in one vector."""
+    count = len(rows)
+    swap = count in (2, 4)
+    # The stage that meets stage i in term j: stage j, or the partner that flipped bits of i name.
+    partners = [[i ^ j if swap else j for i in range(count)] for j in range(count)]
+    columns = [joined(builder, [rows[i][partner[i]] for i in range(count)]) for partner in partners]
+    if swap:
+        parts = swapped(builder, whole, count)
+    else:
+        parts = [shuffled(builder, whole, [j] * count) for j in range(count)]
+    terms = [builder.fmul(a, x, lanes.flags) for a, x in zip(columns, parts, strict=True)]
+    return summed(builder, terms, lanes.flags)
 
 
 @intrinsic
@@ -283,14 +300,12 @@ def apart(typing_context: Any, weights: Any, structure: Any) -> Any:
 
     def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
         def stage(j: int) -> Any:
-            return rebuilt(
-                context,
-                builder,
-                structure,
-                one,
-                values[1],
-                lambda kind, _, value: taken(builder, kind, value, j),
-            )
+            def each(kind: Any, _: Any, value: Any) -> Any:
+                if context.enable_nrt and not isinstance(kind, Lanes):
+                    context.nrt.incref(builder, kind, value)
+                return taken(builder, kind, value, j)
+
+            return rebuilt(context, builder, structure, one, values[1], each)
 
         return context.make_tuple(builder, result, [stage(j) for j in range(count)])
 
@@ -336,7 +351,61 @@ def _each_stage(weights: Any, function: Any, arguments: Any) -> Any:
     def call(weights: Any, function: Any, arguments: Any) -> Any:
         return widen_all(weights, function(*widen(weights, arguments)), first_lanes(arguments))
 
-    return call if has_stages(arguments) else call_once
+    def call_two(weights: Any, function: Any, arguments: Any) -> Any:
+        first, second = apart(weights, arguments)
+        return piled((function(*first), function(*second)), first_lanes(arguments))
+
+    def call_three(weights: Any, function: Any, arguments: Any) -> Any:
+        first, second, third = apart(weights, arguments)
+        return piled((function(*first), function(*second), function(*third)), first_lanes(arguments))
+
+    def call_four(weights: Any, function: Any, arguments: Any) -> Any:
+        first, second, third, fourth = apart(weights, arguments)
+        return piled(
+            (function(*first), function(*second), function(*third), function(*fourth)), first_lanes(arguments)
+        )
+
+    if not has_stages(arguments):
+        return call_once
+    if not find_stages(arguments).piled:
+        return call
+    return {2: call_two, 3: call_three, 4: call_four}[len(weights.types)]
+
+
+def find_stages(kind: types.Type) -> Lanes | None:
+    """Return the first type with several stages in nested tuple types, None if there is none."""
+    if isinstance(kind, types.BaseTuple):
+        return next(filter(None, map(find_stages, kind.types)), None)
+    return kind if isinstance(kind, Lanes) and kind.stages > 1 else None
+
+
+@intrinsic
+def piled(typing_context: Any, structures: Any, like: Any) -> Any:
+    """Stages of bodies in lanes, from a tuple of structures, one for each stage."""
+    kinds = structures.types
+    count = len(kinds)
+    lanes = at_stages(like, count)
+
+    def change(kind: types.Type) -> types.Type:
+        return at_stages(kind, count) if isinstance(kind, Lanes) else lanes.like(kind)
+
+    result = mapped(kinds[0], change)
+
+    def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
+        def build(kind: Any, wide: Any, members: list[Any]) -> Any:
+            if not isinstance(kind, types.BaseTuple):
+                one = wide.of_one_stage()
+                return joined(builder, [as_lanes(context, builder, member, kind, one) for member in members])
+            inner = [
+                build(part, outer, [builder.extract_value(member, index) for member in members])
+                for index, (part, outer) in enumerate(zip(kind.types, wide.types, strict=True))
+            ]
+            return context.make_tuple(builder, wide, inner)
+
+        parts = [builder.extract_value(values[0], j) for j in range(count)]
+        return build(kinds[0], result, parts)
+
+    return signature(result, structures, like), generate
 
 
 @intrinsic
