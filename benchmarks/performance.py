@@ -140,7 +140,7 @@ def arguments() -> argparse.Namespace:
 
 def listed_sections() -> str:
     """Return the names of the sections and what they are about."""
-    lines = [f"  {name:14}{section.title}" for name, section in SECTIONS.items()]
+    lines = [f"  {name:18}{section.title}" for name, section in SECTIONS.items()]
     examples = [
         "  python benchmarks/performance.py --quick",
         "  python benchmarks/performance.py --only mujoco ppo",

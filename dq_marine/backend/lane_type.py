@@ -51,7 +51,7 @@ class Lanes(types.Type):
 
     def of_one_stage(self) -> Lanes:
         """Return the lanes that hold one stage of what these hold."""
-        return Lanes(self.dtype, self.width // self.stages, self.precision, self.fast)
+        return Lanes(self.dtype, self.bodies, self.precision, self.fast)
 
     def like(self, scalar: types.Type) -> Lanes:
         """Return the lanes that hold a scalar of the given type."""
@@ -70,6 +70,21 @@ class Lanes(types.Type):
     def vector(self) -> ir.VectorType:
         """The LLVM type."""
         return ir.VectorType(_ELEMENTS[self.dtype], self.width)
+
+    @property
+    def bodies(self) -> int:
+        """How many bodies the lanes hold."""
+        return self.width // self.stages
+
+    @property
+    def piled(self) -> bool:
+        """Whether the stages lie one upon the other, a vector of bodies each, and not side by side in one vector."""
+        return self.stages > 1 and self.bodies > 1
+
+    @property
+    def value_type(self) -> ir.Type:
+        """The LLVM type of a value."""
+        return ir.ArrayType(self.of_one_stage().vector, self.stages) if self.piled else self.vector
 
     @property
     def flags(self) -> tuple[str, ...]:
@@ -95,10 +110,10 @@ _ELEMENTS = {
 
 @register_model(Lanes)
 class LanesModel(models.PrimitiveModel):
-    """An LLVM vector."""
+    """An LLVM vector, or an array of them where bodies in lanes have several stages."""
 
     def __init__(self, dmm: Any, fe_type: Lanes) -> None:
-        super().__init__(dmm, fe_type, fe_type.vector)
+        super().__init__(dmm, fe_type, fe_type.value_type)
 
 
 def is_scalar(kind: types.Type) -> bool:

@@ -1,16 +1,16 @@
 """`algebra.stages` in compiled code: the stages of a body side by side in an LLVM vector.
 
 Stages of one body are `Lanes`, one for each stage. Those of bodies in lanes are lanes, too, as many times as there are
-stages: first all bodies at the first stage, then all at the second. Both kinds know how many `stages` they hold. What
-a method with one stage has at its stage is an ordinary number.
+stages: an array of vectors, all bodies at one stage in each. Both kinds know how many `stages` they hold. Functions are
+called once for all stages of one body, but of bodies in lanes stage by stage: their vectors are full, and one of all
+stages would not fit into the processor's registers. What a method with one stage has at its stage is an ordinary
+number.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
-from llvmlite import ir
 from numba import types
 from numba.core.errors import TypingError
 from numba.core.typing import signature
@@ -20,141 +20,21 @@ import dq_marine.backend.lane_arithmetic  # noqa: F401  teaches Numba to compute
 from dq_marine.algebra import stages
 from dq_marine.backend.lane_type import Lanes, as_lanes, is_scalar
 from dq_marine.backend.selection import find_lanes, provide
-
-
-def at_stages(kind: types.Type, count: int) -> types.Type:
-    """Return the type of a number at several stages, from its ordinary type."""
-    if count == 1:
-        return kind
-    if isinstance(kind, Lanes):
-        return kind if kind.stages > 1 else kind.at_stages(count)
-    number = types.boolean if isinstance(kind, types.Boolean) else types.float64
-    return Lanes(number, 1, types.float64, False).at_stages(count)
-
-
-def of_one_stage(kind: types.Type) -> types.Type:
-    """Return the ordinary type of a number at several stages; an ordinary one stays."""
-    if not isinstance(kind, Lanes) or kind.stages == 1:
-        return kind
-    return kind.of_one_stage() if kind.width > kind.stages else kind.dtype
-
-
-def has_stages(kind: types.Type) -> bool:
-    """Whether nested tuples have a number that differs between stages."""
-    if isinstance(kind, types.BaseTuple):
-        return any(has_stages(part) for part in kind.types)
-    return isinstance(kind, Lanes) and kind.stages > 1
-
-
-def mapped(kind: types.Type, change: Callable[[types.Type], types.Type]) -> types.Type:
-    """Return the type of nested tuples with every number's type changed."""
-    if isinstance(kind, types.BaseTuple):
-        named = getattr(kind, "instance_class", None)
-        return types.BaseTuple.from_types(tuple(mapped(part, change) for part in kind.types), named)
-    return change(types.unliteral(kind))
-
-
-def rebuilt(
-    context: Any, builder: Any, kind: types.Type, result: types.Type, value: Any, change: Callable[..., Any]
-) -> Any:
-    """Return the LLVM value of nested tuples with every number changed by (its type, the result's, its value)."""
-    if not isinstance(kind, types.BaseTuple):
-        return change(kind, result, value)
-    parts = [
-        rebuilt(context, builder, inner, outer, builder.extract_value(value, index), change)
-        for index, (inner, outer) in enumerate(zip(kind.types, result.types, strict=True))
-    ]
-    return context.make_tuple(builder, result, parts)
-
-
-def widened(context: Any, builder: Any, kind: types.Type, result: Lanes, value: Any) -> Any:
-    """Return an ordinary number as stages that all hold it; stages stay."""
-    if kind == result:
-        return value
-    if not isinstance(kind, Lanes):
-        return as_lanes(context, builder, value, kind, result)
-    places = [place % kind.width for place in range(result.width)]
-    return shuffled(builder, value, places)
-
-
-def shuffled(builder: Any, value: Any, places: list[int]) -> Any:
-    """Return the vector of a vector's numbers at some places."""
-    mask = ir.Constant(ir.VectorType(ir.IntType(32), len(places)), places)
-    return builder.shuffle_vector(value, ir.Constant(value.type, ir.Undefined), mask)
-
-
-def taken(builder: Any, kind: types.Type, value: Any, stage: int) -> Any:
-    """Return one stage of a number; an ordinary one stays."""
-    if not isinstance(kind, Lanes) or kind.stages == 1:
-        return value
-    bodies = kind.width // kind.stages
-    if bodies == 1:
-        return builder.extract_element(value, ir.Constant(ir.IntType(32), stage))
-    return shuffled(builder, value, list(range(stage * bodies, (stage + 1) * bodies)))
-
-
-def joined(builder: Any, parts: list[Any]) -> Any:
-    """Return the numbers of several stages, numbers or vectors, side by side in one vector."""
-    if len(parts) == 1:
-        return parts[0]
-    if not isinstance(parts[0].type, ir.VectorType):
-        vector = ir.Constant(ir.VectorType(parts[0].type, len(parts)), ir.Undefined)
-        for place, part in enumerate(parts):
-            vector = builder.insert_element(vector, part, ir.Constant(ir.IntType(32), place))
-        return vector
-    half = (len(parts) + 1) // 2
-    first, second = joined(builder, parts[:half]), joined(builder, parts[half:])
-    size, rest = first.type.count, second.type.count
-    if rest < size:  # a shuffle takes vectors of one size
-        second = shuffled(builder, second, [place % rest for place in range(size)])
-    mask = ir.Constant(ir.VectorType(ir.IntType(32), size + rest), list(range(size + rest)))
-    return builder.shuffle_vector(first, second, mask)
-
-
-def swapped(builder: Any, value: Any, count: int) -> list[Any]:
-    """Return a vector of 2 or 4 stages with stages i and i ^ j swapped, for every j.
-
-    Swaps are the cheapest shuffles that there are. In sums of pairs every stage still adds the same numbers: only the
-    sides of additions change.
-    """
-    neighbours = [place ^ 1 for place in range(count)]
-    parts = [value, shuffled(builder, value, neighbours)]
-    if count == 4:
-        across = shuffled(builder, value, [2, 3, 0, 1])
-        parts += [across, shuffled(builder, across, neighbours)]
-    return parts
-
-
-def weights_of(
-    context: Any, builder: Any, kind: types.Type, weights: Any, count: int, result: types.Type
-) -> list[Any]:
-    """Return each weight as a value of the result's type."""
-    return [
-        as_lanes(context, builder, builder.extract_value(weights, j), kind.types[j], result)
-        if isinstance(result, Lanes)
-        else context.cast(builder, builder.extract_value(weights, j), kind.types[j], result)
-        for j in range(count)
-    ]
-
-
-def summed(builder: Any, terms: list[Any], flags: tuple[str, ...]) -> Any:
-    """Return the sum of terms in pairs, as `algebra.stages.paired_sum` has it."""
-    return stages.paired_sum([_Term(builder, term, flags) for term in terms]).value
-
-
-class _Term:
-    """An LLVM value that can be added."""
-
-    def __init__(self, builder: Any, value: Any, flags: tuple[str, ...]) -> None:
-        self.builder, self.value, self.flags = builder, value, flags
-
-    def __add__(self, other: _Term) -> _Term:
-        return _Term(self.builder, self.builder.fadd(self.value, other.value, self.flags), self.flags)
-
-
-def flags_of(kind: types.Type) -> tuple[str, ...]:
-    """Return the flags of floating-point instructions on a number."""
-    return kind.flags if isinstance(kind, Lanes) else ()
+from dq_marine.backend.stage_layout import (
+    at_stages,
+    find_stages,
+    flags_of,
+    joined,
+    mapped,
+    of_one_stage,
+    rebuilt,
+    side_by_side,
+    stage_by_stage,
+    summed,
+    taken,
+    weights_of,
+    widened,
+)
 
 
 @intrinsic
@@ -252,22 +132,11 @@ def matrix_product(typing_context: Any, matrix: Any, structure: Any) -> Any:
             weights_of(context, builder, matrix.types[i], builder.extract_value(values[0], i), count, one)
             for i in range(count)
         ]
-        swap = lanes.width == count and count in (2, 4)
-        # The stage that meets stage i in term j: stage j, or the partner that flipped bits of i name.
-        partners = [[i ^ j if swap else j for i in range(count)] for j in range(count)]
-        columns = [joined(builder, [rows[i][partner[i]] for i in range(count)]) for partner in partners]
+        product = stage_by_stage if lanes.piled else side_by_side
 
         def each(kind: Any, wide: Any, value: Any) -> Any:
             whole = widened(context, builder, kind, lanes, value)
-            if swap:
-                parts = swapped(builder, whole, count)
-            else:
-                parts = [
-                    widened(context, builder, one, lanes, taken(builder, lanes, whole, j))
-                    for j in range(count)
-                ]
-            terms = [builder.fmul(a, x, lanes.flags) for a, x in zip(columns, parts, strict=True)]
-            return summed(builder, terms, lanes.flags)
+            return product(builder, rows, whole, lanes)
 
         return rebuilt(context, builder, structure, result, values[1], each)
 
@@ -283,14 +152,12 @@ def apart(typing_context: Any, weights: Any, structure: Any) -> Any:
 
     def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
         def stage(j: int) -> Any:
-            return rebuilt(
-                context,
-                builder,
-                structure,
-                one,
-                values[1],
-                lambda kind, _, value: taken(builder, kind, value, j),
-            )
+            def each(kind: Any, _: Any, value: Any) -> Any:
+                if context.enable_nrt and not isinstance(kind, Lanes):
+                    context.nrt.incref(builder, kind, value)
+                return taken(builder, kind, value, j)
+
+            return rebuilt(context, builder, structure, one, values[1], each)
 
         return context.make_tuple(builder, result, [stage(j) for j in range(count)])
 
@@ -336,7 +203,55 @@ def _each_stage(weights: Any, function: Any, arguments: Any) -> Any:
     def call(weights: Any, function: Any, arguments: Any) -> Any:
         return widen_all(weights, function(*widen(weights, arguments)), first_lanes(arguments))
 
-    return call if has_stages(arguments) else call_once
+    def call_two(weights: Any, function: Any, arguments: Any) -> Any:
+        first, second = apart(weights, arguments)
+        return piled((function(*first), function(*second)), first_lanes(arguments))
+
+    def call_three(weights: Any, function: Any, arguments: Any) -> Any:
+        first, second, third = apart(weights, arguments)
+        return piled((function(*first), function(*second), function(*third)), first_lanes(arguments))
+
+    def call_four(weights: Any, function: Any, arguments: Any) -> Any:
+        first, second, third, fourth = apart(weights, arguments)
+        return piled(
+            (function(*first), function(*second), function(*third), function(*fourth)), first_lanes(arguments)
+        )
+
+    staged = find_stages(arguments)
+    if staged is None:
+        return call_once
+    if not staged.piled:
+        return call
+    return {2: call_two, 3: call_three, 4: call_four}[len(weights.types)]
+
+
+@intrinsic
+def piled(typing_context: Any, structures: Any, like: Any) -> Any:
+    """Stages of bodies in lanes, from a tuple of structures, one for each stage."""
+    kinds = structures.types
+    count = len(kinds)
+    lanes = at_stages(like, count)
+
+    def change(kind: types.Type) -> types.Type:
+        return at_stages(kind, count) if isinstance(kind, Lanes) else lanes.like(kind)
+
+    result = mapped(kinds[0], change)
+
+    def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
+        def build(kind: Any, wide: Any, members: list[Any]) -> Any:
+            if not isinstance(kind, types.BaseTuple):
+                one = wide.of_one_stage()
+                return joined(builder, [as_lanes(context, builder, member, kind, one) for member in members])
+            inner = [
+                build(part, outer, [builder.extract_value(member, index) for member in members])
+                for index, (part, outer) in enumerate(zip(kind.types, wide.types, strict=True))
+            ]
+            return context.make_tuple(builder, wide, inner)
+
+        parts = [builder.extract_value(values[0], j) for j in range(count)]
+        return build(kinds[0], result, parts)
+
+    return signature(result, structures, like), generate
 
 
 @intrinsic

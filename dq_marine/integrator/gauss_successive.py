@@ -44,7 +44,11 @@ SUCCESSIVE = 3
 """Stages of the method whose stages are found one after the other."""
 
 METHOD = gauss(SUCCESSIVE)
-OF_THE_SECOND = 0.003  # of the change of the second sweep: what the next may change, when sweeps end
+PLAIN_SWEEPS = 3
+"""After the first, before changes are looked at."""
+
+OF_THE_FOURTH = 0.1
+"""Of the change of the fourth sweep: what the next may change, when sweeps end."""
 
 FreeSteps: TypeAlias = Callable[
     [Inertia, float, int, DualQuaternion, Spatial], tuple[DualQuaternion, Spatial, DriftReport]
@@ -52,12 +56,11 @@ FreeSteps: TypeAlias = Callable[
 
 
 class Series(NamedTuple):
-    """The momentum's rate as a cubic in the share of the step that is over: its coefficients k c_k (G11)."""
+    """The momentum's rate as a quadratic in the share of the step that is over: its coefficients k c_k (G11)."""
 
     first: Spatial
     second: Spatial
     third: Spatial
-    fourth: Spatial
 
 
 class Three(NamedTuple):
@@ -69,7 +72,7 @@ class Three(NamedTuple):
 
 
 def momentum_series(inertia: Inertia, c: Spatial) -> Series:
-    """Return (G11), to c_4."""
+    """Return (G11), to c_3."""
     x0 = twist_from_momentum(inertia, c)
     k1 = momentum_bracket(x0, c)
     x1 = twist_from_momentum(inertia, k1)
@@ -77,20 +80,12 @@ def momentum_series(inertia: Inertia, c: Spatial) -> Series:
     c2 = spatial_scale(0.5, k2)
     x2 = twist_from_momentum(inertia, c2)
     k3 = spatial_add(spatial_add(momentum_bracket(x0, c2), momentum_bracket(x1, k1)), momentum_bracket(x2, c))
-    c3 = spatial_scale(1.0 / 3.0, k3)
-    x3 = twist_from_momentum(inertia, c3)
-    k4 = spatial_add(
-        spatial_add(momentum_bracket(x0, c3), momentum_bracket(x1, c2)),
-        spatial_add(momentum_bracket(x2, k1), momentum_bracket(x3, c)),
-    )
-    return Series(k1, k2, k3, k4)
+    return Series(k1, k2, k3)
 
 
 def rate_at(series: Series, share: float) -> Spatial:
     """Return the rate when a share of the step is over."""
-    s = spatial_add_scaled(series.third, share, series.fourth)
-    s = spatial_add_scaled(series.second, share, s)
-    return spatial_add_scaled(series.first, share, s)
+    return spatial_add_scaled(series.first, share, spatial_add_scaled(series.second, share, series.third))
 
 
 Rates: TypeAlias = tuple[Spatial, Spatial, Spatial]
@@ -113,12 +108,9 @@ def next_sweep(body: FreeBody, c: Spatial, rates: Rates) -> Three:
     return Three(early, middle, late)
 
 
-def squared_change(body: FreeBody, new: Three, old: Rates) -> float:
-    """Return the square of what a sweep has changed."""
-    square = body.length_squared
-    early = weighted_square(square, spatial_subtract(new.early.rate, old[0]))
-    middle = weighted_square(square, spatial_subtract(new.middle.rate, old[1]))
-    return early + middle + weighted_square(square, spatial_subtract(new.late.rate, old[2]))
+def squared_change(body: FreeBody, new: Three, old: Three) -> float:
+    """Return the square of what a sweep has changed at the last stage, which is farthest from the step's start."""
+    return weighted_square(body.length_squared, spatial_subtract(new.late.rate, old.late.rate))
 
 
 def rates(stages: Three) -> tuple[Spatial, Spatial, Spatial]:
@@ -129,24 +121,25 @@ def rates(stages: Three) -> tuple[Spatial, Spatial, Spatial]:
 def solved_stages(body: FreeBody, c: Spatial) -> tuple[Three, SolverReport]:
     """Return the stages, and how the sweeps fared.
 
-    Three sweeps give the method's order from the series of order four; the test, which looks one sweep ahead as that of
-    `sweeps.make_sweeps` does, says whether the step is too long for so few.
+    Five sweeps give the method's order, from the series of order three; the test, which looks one sweep ahead as that
+    of `sweeps.make_sweeps` does, says whether the step is too long for so few.
     """
     size = weighted_square(body.length_squared, c) + smallest_normal(c.linear[0])
     series = momentum_series(body.inertia, c)
     n1, n2, n3 = METHOD.nodes
-    first = next_sweep(body, c, (rate_at(series, n1), rate_at(series, n2), rate_at(series, n3)))
-    second = next_sweep(body, c, rates(first))
-    now = next_sweep(body, c, rates(second))
-    before = squared_change(body, second, rates(first))
-    last = squared_change(body, now, rates(second))
-    tolerance = max(by_precision(size, ROUND_OFF**2, ROUND_OFF_SINGLE**2) * size, OF_THE_SECOND**2 * before)
+    third = next_sweep(body, c, (rate_at(series, n1), rate_at(series, n2), rate_at(series, n3)))
+    fourth = third
+    for _ in range(PLAIN_SWEEPS):
+        third, fourth = fourth, next_sweep(body, c, rates(fourth))
+    now = next_sweep(body, c, rates(fourth))
+    before, last = squared_change(body, fourth, third), squared_change(body, now, fourth)
+    tolerance = max(by_precision(size, ROUND_OFF**2, ROUND_OFF_SINGLE**2) * size, OF_THE_FOURTH**2 * before)
     converged = is_done(last, before, tolerance)
     active = negation(converged) & (last <= HOPELESS**2 * size)
-    count = 3
+    count = PLAIN_SWEEPS + 2
     while some(active) and count < MAX_SWEEPS:
         new = next_sweep(body, c, rates(now))
-        change = squared_change(body, new, rates(now))
+        change = squared_change(body, new, now)
         before, last = select(active, last, before), select(active, change, last)
         now = select(active, new, now)
         count += 1

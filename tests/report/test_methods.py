@@ -74,6 +74,11 @@ def test_names_titles_and_families():
     }
 
 
+def test_gauss_of_order_6_is_left_out_where_order_8_is_the_same_method():
+    assert "damping" in METHODS["gauss6"].refusal(CASES["damped_bluerov2"].physics)
+    assert METHODS["gauss6"].refusal(CASES["heavy_top"].physics) == ""
+
+
 @pytest.mark.parametrize("name", ["dqvi6", "dqvi8"])
 def test_negative_stages_are_refused_where_something_damps(name):
     assert "damping" in METHODS[name].refusal(CASES["damped_bluerov2"].physics)
