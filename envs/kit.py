@@ -32,6 +32,7 @@ from dq_marine.envs.core.module_task import define_task
 from dq_marine.envs.core.observed import GOAL_MOTION, VELOCITY
 from dq_marine.envs.core.places import goal_place
 from dq_marine.envs.core.suitability import (
+    paced,
     speed_ahead,
     too_slow,
     unable_to_hold_a_pose,
@@ -43,6 +44,7 @@ from dq_marine.task.common import SPEED_BOUND, effort, make_pick, observed_curve
 from dq_marine.task.harmonics import Curve, CurvePoint, curve_point, level_course, moved_to
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.shapes import SHAPE_DRAWS, SHAPES, STEEPEST, shaped_curve
+from dq_marine.task.splines import beside, curvature, make_spline, make_winding, path_axes, winding_draws
 from dq_marine.task.starts import SLOW_START_DRAWS, make_walk, slow_start, symmetric3
 
 __all__ = [
@@ -67,8 +69,10 @@ __all__ = [
     "Vector3",
     "add",
     "add_scaled",
+    "beside",
     "bounded",
     "bounded_vector",
+    "curvature",
     "curve_point",
     "define_task",
     "dot",
@@ -79,12 +83,16 @@ __all__ = [
     "goal_place",
     "level_course",
     "make_pick",
+    "make_spline",
     "make_walk",
+    "make_winding",
     "moved_to",
     "norm",
     "observed_curve_motion",
     "observed_velocity",
     "one_of",
+    "paced",
+    "path_axes",
     "quaternion_conjugate",
     "quaternion_from_euler",
     "quaternion_multiply",
@@ -101,4 +109,5 @@ __all__ = [
     "unable_to_hold_a_pose",
     "unable_to_keep_up",
     "unable_to_travel",
+    "winding_draws",
 ]

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
 
 SURGE, SWAY, YAW = 0, 1, 5
+
+PERIODS_A_LENGTH = 15.0
+"""Control periods in which a vehicle at full speed goes its own length, where these are longer than the shortest."""
+
+SHORTEST_PERIOD, LONGEST_PERIOD = 0.1, 5.0
+"""Control periods [s]; beyond the longer one, the explicit steps of ships that roll get coarse."""
 
 SLOWEST = 10.0
 """Time in which a vehicle that is quick enough for episodes of half a minute goes its own length [s]."""
@@ -18,6 +25,19 @@ def speed_ahead(vehicle: Vehicle) -> float:
     from dq_marine.vehicles.analysis.sheet import terminal_speed  # here: `import dq_marine` stays light
 
     return terminal_speed(vehicle, SURGE)
+
+
+def paced(vehicle: Vehicle) -> float:
+    """Return a control period for journeys: a fifteenth of the time for its own length, rounded, and 0.1 s or more.
+
+    A ship of 170 m that goes 9 m/s acts every second, and goes as many lengths in an episode as a vehicle of 3 m.
+    """
+    speed = speed_ahead(vehicle)
+    if not 0.0 < speed < math.inf:
+        return SHORTEST_PERIOD
+    period = max(SHORTEST_PERIOD, vehicle.dimensions.length / speed / PERIODS_A_LENGTH)
+    digits = -math.floor(math.log10(period))
+    return min(LONGEST_PERIOD, round(period, digits))
 
 
 def unable_to_hold_a_pose(vehicle: Vehicle) -> str | None:
