@@ -64,6 +64,10 @@ class AutopilotSettings(Settings):
         look_ahead_time: of the line of sight, over the time constant of the angle loop.
         adaptation: of the drift angle, over the rate that damps the path's error critically.
         largest_drift_angle: that adaptation may find [rad].
+        slowing_angle: turn ahead at which a vehicle between waypoints goes slowest [rad].
+        haste: speed between waypoints, over the speed of journeys.
+        slowest: speed at the slowest, over that between waypoints.
+        slowest_of_heavy: the same, of a vehicle that needs more than its length to stop.
     """
 
     saturating_angle: Positive
@@ -78,6 +82,10 @@ class AutopilotSettings(Settings):
     look_ahead_time: Positive
     adaptation: NonNegative
     largest_drift_angle: Positive
+    slowing_angle: Positive
+    haste: Positive
+    slowest: Fraction
+    slowest_of_heavy: Fraction
 
 
 class EnvironmentSettings(Settings):

@@ -40,6 +40,11 @@ class Attitude(NamedTuple):
     down_body: Array
 
     @property
+    def speed(self) -> float:
+        """Over ground, and less than 0 astern [m/s]."""
+        return math.copysign(float(np.linalg.norm(self.velocity_level)), self.velocity_level[0])
+
+    @property
     def drift_angle(self) -> float:
         """From the bow to the course over ground [rad]; 0 for a vehicle that hardly moves ahead."""
         ahead, starboard, _ = self.velocity_level
@@ -124,6 +129,7 @@ class Autopilot:
         self._net_weight = 0.0 if floats else vehicle.weight - vehicle.buoyant_force
         self._arm = np.zeros(3) if floats else vehicle.restoring_arm
         inertia = np.diag(vehicle.mass_matrix)
+        self._mass = float(inertia[SURGE])
         self._bandwidths = [self._bandwidth(float(inertia[i]), float(self._limits[i]), i) for i in range(6)]
         self._loops = [
             RateLoop(
@@ -146,6 +152,10 @@ class Autopilot:
         """Return the look-ahead distance at a speed [m], for guidance by an axis."""
         least = self.settings.shortest_look_ahead * self.length
         return max(least, self.settings.look_ahead_time * speed / self.angle_gain(axis))
+
+    def stopping_distance(self, speed: float) -> float:
+        """Return the way [m] that full thrust astern takes to stop the vehicle at a speed, were there no drag."""
+        return self._mass * speed**2 / (2.0 * float(self._limits[SURGE]))
 
     def reset(self) -> None:
         """Forget all integrals."""

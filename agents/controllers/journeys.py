@@ -6,16 +6,16 @@ import math
 from typing import Any, ClassVar
 
 import gymnasium as gym
-import numpy as np
 
 from dq_marine.agents.controllers.autopilot import PITCH, YAW, Autopilot, Order, seen
-from dq_marine.agents.controllers.guidance import AdaptiveSight, levelled
+from dq_marine.agents.controllers.guidance import AdaptiveSight, levelled, wrapped
 from dq_marine.agents.controllers.reading import parts_reader
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
+from dq_marine.envs.core.suitability import cruising_speed
 
 MOTION = ("down_body", "linear_velocity_body", "angular_velocity_body")
 """Parts of an observation that tell of attitude and velocity, wherever the vehicle is."""
@@ -67,7 +67,7 @@ class PathController:
         climb = math.atan2(-way[2], along) + upright.correction(-float(parts["below_path"][0]), speed)
         order = Order(
             speed,
-            speed - math.copysign(float(np.linalg.norm(attitude.velocity_level)), attitude.velocity_level[0]),
+            speed - attitude.speed,
             course - attitude.drift_angle,
             turning,
             climb,
@@ -86,3 +86,46 @@ class PathController:
         )
         self._sights = (turn, tilt)
         return self._sights
+
+
+class WaypointController:
+    """Leads a vehicle from waypoint to waypoint: the course over ground goes straight to the next, slowly round bends."""
+
+    READS: ClassVar[tuple[str, ...]] = ("waypoint_body", *MOTION)
+
+    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+        """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
+        inner = marine(env)
+        self._read = parts_reader(inner, self.READS)
+        self._settings = settings or read_settings("autopilot", AutopilotSettings)
+        self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
+        self._speed = cruising_speed(inner.vehicle) * self._settings.haste
+        handy = self._pilot.stopping_distance(self._speed) < inner.vehicle.dimensions.length
+        self._bend = 0.0 if handy else self._settings.tightest_turn * inner.vehicle.dimensions.length
+        self._slowest = self._settings.slowest if handy else self._settings.slowest_of_heavy
+
+    @classmethod
+    def for_env(cls, env: gym.Env[Any, Any]) -> WaypointController:
+        """Return the controller for an environment's vehicle."""
+        return cls(env)
+
+    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
+        """Forget the episode before."""
+        self._pilot.reset()
+
+    def act(self, observation: Observation) -> Action:
+        """Return the action in [-1, 1], shape (n,)."""
+        parts = self._read(observation)
+        attitude = seen(parts)
+        ahead, starboard, down = levelled(
+            tuple(parts["waypoint_body"].tolist()), attitude.roll, attitude.pitch
+        )
+        distance = math.hypot(ahead, starboard)
+        turn = wrapped(math.atan2(starboard, ahead) - attitude.drift_angle)
+        share = max(self._slowest, 1.0 - abs(turn) / self._settings.slowing_angle)
+        if math.hypot(ahead, abs(starboard) - self._bend) < self._bend:
+            turn, share = 0.0, 1.0  # no turn leads there: on, until one does
+        speed = share * self._speed
+        climb = math.atan2(-down, max(distance, self._pilot.length))
+        error = speed - attitude.velocity_level[0]
+        return self._pilot.act(attitude, Order(speed, error, turn, 0.0, climb))

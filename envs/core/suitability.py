@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
 
-SURGE, SWAY, YAW = 0, 1, 5
+SURGE, SWAY, HEAVE, PITCH, YAW = 0, 1, 2, 4, 5
+
+CRUISE = 0.6
+"""Speed of journeys over the largest."""
 
 PERIODS_A_LENGTH = 15.0
 """Control periods in which a vehicle at full speed goes its own length, where these are longer than the shortest."""
@@ -25,6 +28,20 @@ def speed_ahead(vehicle: Vehicle) -> float:
     from dq_marine.vehicles.analysis.sheet import terminal_speed  # here: `import dq_marine` stays light
 
     return terminal_speed(vehicle, SURGE)
+
+
+def cruising_speed(vehicle: Vehicle) -> float:
+    """Return a speed for journeys [m/s]: three fifths of the largest, and of that at which a free pitch gets unstable.
+
+    Below the surface, Munk's moment (A_33 - A_11) u^2 theta of the added mass turns a vehicle across its way; where
+    nothing drives pitch, it is the righting moment alone that holds it (Fossen 2021, Handbook of Marine Craft, 6.3).
+    """
+    speed = speed_ahead(vehicle)
+    added, righting = vehicle.added_mass_matrix, float(vehicle.restoring_arm[2])
+    munk = float(added[HEAVE, HEAVE] - added[SURGE, SURGE])
+    if vehicle.hydrostatics is None and not vehicle.wrench_limits[PITCH] and munk > 0.0:
+        speed = min(speed, math.sqrt(max(0.0, righting) / munk))
+    return CRUISE * speed
 
 
 def paced(vehicle: Vehicle) -> float:

@@ -12,7 +12,7 @@ from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import bounded, bounded_vector, scale
 from dq_marine.checks import finite_number
-from dq_marine.envs.core.suitability import paced, speed_ahead, unable_to_travel
+from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_travel
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
@@ -39,7 +39,7 @@ FAR, STEEP = 10.0, 10.0  # bounds of what is shown: distances [lengths], curvatu
 class Settings:
     """Speed over ground [m/s], legs of the path [vehicle lengths, 10 s at least], its turns and slopes [degrees].
 
-    A speed of None is three fifths of what the vehicle reaches. The least radius of a bend is about leg / turn.
+    A speed of None is three fifths of what the vehicle reaches, or can steer at. The least radius of a bend is about leg / turn.
     """
 
     speed: float | None = None
@@ -50,7 +50,7 @@ class Settings:
 
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
-    speed = 0.6 * speed_ahead(vehicle) if given.speed is None else given.speed
+    speed = cruising_speed(vehicle) if given.speed is None else given.speed
     climb = finite_number("climb", given.climb, least=0.0, most=45.0)
     return replace(
         given,
