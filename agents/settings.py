@@ -57,6 +57,7 @@ class AutopilotSettings(Settings):
         fastest_loop: bound of a rate loop's gain times the control period.
         rate_gain: of a rate loop, over its bandwidth.
         angle_gain: of the angle loop round it, over the same.
+        angle_of_fastest_rate: angle error that asks for no more than the fastest rate against damping [rad].
         integral_rate: of the rate loop's integral, over the same.
         tightest_turn: radius of the tightest turn that is asked for [vehicle lengths].
         steepest_pitch: largest pitch that is asked for [rad].
@@ -75,6 +76,7 @@ class AutopilotSettings(Settings):
     fastest_loop: Annotated[float, Field(gt=0.0, lt=1.0)]
     rate_gain: Positive
     angle_gain: Positive
+    angle_of_fastest_rate: Positive
     integral_rate: NonNegative
     tightest_turn: Positive
     steepest_pitch: Annotated[float, Field(gt=0.0, lt=1.5)]

@@ -141,17 +141,25 @@ class Autopilot:
             )
             for i in range(6)
         ]
+        self._fastest_rates = [terminal_speed(vehicle, i) for i in range(6)]
         self.dives = bool(not floats and (self._limits[HEAVE] or self._limits[PITCH]))
         self.by_heave = bool(not floats and self._limits[HEAVE])
 
     def angle_gain(self, axis: int) -> float:
-        """Return k_a of an axis [1/s]."""
-        return self.settings.angle_gain * self._bandwidths[axis]
+        """Return k_a of an axis [1/s]: an angle that is not small asks for no more than the rate that damping allows."""
+        return min(
+            self.settings.angle_gain * self._bandwidths[axis],
+            self._fastest_rates[axis] / self.settings.angle_of_fastest_rate,
+        )
 
     def look_ahead(self, speed: float, axis: int) -> float:
         """Return the look-ahead distance at a speed [m], for guidance by an axis."""
         least = self.settings.shortest_look_ahead * self.length
         return max(least, self.settings.look_ahead_time * speed / self.angle_gain(axis))
+
+    def turning_radius(self, speed: float) -> float:
+        """Return the radius [m] of the tightest turn at a speed, as the damping of yaw alone has it."""
+        return speed / self._fastest_rates[YAW]
 
     def stopping_distance(self, speed: float) -> float:
         """Return the way [m] that full thrust astern takes to stop the vehicle at a speed, were there no drag."""

@@ -100,9 +100,13 @@ class WaypointController:
         self._settings = settings or read_settings("autopilot", AutopilotSettings)
         self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
         self._speed = cruising_speed(inner.vehicle) * self._settings.haste
-        handy = self._pilot.stopping_distance(self._speed) < inner.vehicle.dimensions.length
-        self._bend = 0.0 if handy else self._settings.tightest_turn * inner.vehicle.dimensions.length
-        self._slowest = self._settings.slowest if handy else self._settings.slowest_of_heavy
+        length = inner.vehicle.dimensions.length
+        if self._pilot.stopping_distance(self._speed) < length:
+            self._slowest = self._settings.slowest
+            self._bend = self._pilot.turning_radius(self._slowest * self._speed)
+        else:
+            self._slowest = self._settings.slowest_of_heavy
+            self._bend = self._settings.tightest_turn * length
 
     @classmethod
     def for_env(cls, env: gym.Env[Any, Any]) -> WaypointController:
