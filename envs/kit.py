@@ -32,9 +32,11 @@ from dq_marine.envs.core.module_task import define_task
 from dq_marine.envs.core.observed import GOAL_MOTION, VELOCITY
 from dq_marine.envs.core.places import goal_place
 from dq_marine.envs.core.suitability import (
+    cruising_speed,
     paced,
     speed_ahead,
     too_slow,
+    unable_to_dive_under_way,
     unable_to_hold_a_pose,
     unable_to_keep_up,
     unable_to_travel,
@@ -72,6 +74,7 @@ __all__ = [
     "beside",
     "bounded",
     "bounded_vector",
+    "cruising_speed",
     "curvature",
     "curve_point",
     "define_task",
@@ -106,6 +109,7 @@ __all__ = [
     "subtract",
     "symmetric3",
     "too_slow",
+    "unable_to_dive_under_way",
     "unable_to_hold_a_pose",
     "unable_to_keep_up",
     "unable_to_travel",

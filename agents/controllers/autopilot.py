@@ -4,8 +4,8 @@ Each axis is a rate loop with integral, and angles have a proportional loop roun
 
     r_c = r_d + k_a e,        tau = M_ii (k_r (r_c - r) + z),        dz/dt = k_i k_r (r_c - r)            (1)
 
-with k_r = 2 w, k_a = k_i = 0.4 w by the preset, and w so that at rest an error of half a radian asks for the whole
-moment: the vehicle's mass matrix and limits are the gains. Speed has the loop with the drag at the wanted speed fed
+with k_r, k_a and k_i as shares of a bandwidth w, by the preset, at which an error of a tenth of a radian asks for the
+whole moment: the vehicle's mass matrix and limits are the gains. Speed has the loop with the drag at the wanted speed fed
 forward. Where heave is driven, depth is kept by heave, with the bow level; else by pitch.
 """
 
@@ -146,7 +146,7 @@ class Autopilot:
         self.by_heave = bool(not floats and self._limits[HEAVE])
 
     def angle_gain(self, axis: int) -> float:
-        """Return k_a of an axis [1/s]: an angle that is not small asks for no more than the rate that damping allows."""
+        """Return k_a of an axis [1/s]: only large angles ask for the fastest rate that damping allows."""
         return min(
             self.settings.angle_gain * self._bandwidths[axis],
             self._fastest_rates[axis] / self.settings.angle_of_fastest_rate,

@@ -89,7 +89,7 @@ class PathController:
 
 
 class WaypointController:
-    """Leads a vehicle from waypoint to waypoint: the course over ground goes straight to the next, slowly round bends."""
+    """Leads a vehicle from waypoint to waypoint: its course goes straight to the next, and slowly round bends."""
 
     READS: ClassVar[tuple[str, ...]] = ("waypoint_body", *MOTION)
 
@@ -132,4 +132,36 @@ class WaypointController:
         speed = share * self._speed
         climb = math.atan2(-down, max(distance, self._pilot.length))
         error = speed - attitude.velocity_level[0]
+        return self._pilot.act(attitude, Order(speed, error, turn, 0.0, climb))
+
+
+class DepthHeadingController:
+    """Brings a vehicle to the depth, the heading and the speed that are ordered."""
+
+    READS: ClassVar[tuple[str, ...]] = ("deeper", "turn_cosine_sine", "speed_error", "ordered_speed", *MOTION)
+
+    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+        """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
+        inner = marine(env)
+        self._read = parts_reader(inner, self.READS)
+        self._settings = settings or read_settings("autopilot", AutopilotSettings)
+        self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
+
+    @classmethod
+    def for_env(cls, env: gym.Env[Any, Any]) -> DepthHeadingController:
+        """Return the controller for an environment's vehicle."""
+        return cls(env)
+
+    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
+        """Forget the episode before."""
+        self._pilot.reset()
+
+    def act(self, observation: Observation) -> Action:
+        """Return the action in [-1, 1], shape (n,)."""
+        parts = self._read(observation)
+        attitude, speed = seen(parts), float(parts["ordered_speed"][0])
+        turn = math.atan2(parts["turn_cosine_sine"][1], parts["turn_cosine_sine"][0])
+        axis = YAW if self._pilot.by_heave else PITCH
+        climb = -math.atan2(float(parts["deeper"][0]), self._pilot.look_ahead(speed, axis))
+        error = float(parts["speed_error"][0])
         return self._pilot.act(attitude, Order(speed, error, turn, 0.0, climb))

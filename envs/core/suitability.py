@@ -76,6 +76,16 @@ def unable_to_travel(vehicle: Vehicle) -> str | None:
     return "the task goes from place to place, and the vehicle cannot drive ahead and turn"
 
 
+def unable_to_dive_under_way(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle cannot change depth while it goes ahead and turns; None if it can."""
+    limits = vehicle.wrench_limits
+    if vehicle.hydrostatics is not None:
+        return "the task is to dive, and the vehicle floats"
+    if limits[SURGE] and limits[YAW] and (limits[HEAVE] or limits[PITCH]):
+        return None
+    return "the task is to go ahead, turn and dive, and the vehicle cannot drive all three"
+
+
 def unable_to_keep_up(vehicle: Vehicle) -> str | None:
     """Return why a vehicle cannot keep a pose that moves, in half a minute; None if it can."""
     return unable_to_hold_a_pose(vehicle) or too_slow(vehicle)

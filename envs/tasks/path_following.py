@@ -39,7 +39,7 @@ FAR, STEEP = 10.0, 10.0  # bounds of what is shown: distances [lengths], curvatu
 class Settings:
     """Speed over ground [m/s], legs of the path [vehicle lengths, 10 s at least], its turns and slopes [degrees].
 
-    A speed of None is three fifths of what the vehicle reaches, or can steer at. The least radius of a bend is about leg / turn.
+    A speed of None is three fifths of what the vehicle reaches, or can steer at. Bends have radii of leg / turn.
     """
 
     speed: float | None = None
