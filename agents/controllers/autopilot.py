@@ -5,7 +5,7 @@ Each axis is a rate loop with integral, and angles have a proportional loop roun
     r_c = r_d + k_a e,        tau = M_ii (k_r (r_c - r) + z),        dz/dt = k_i k_r (r_c - r)            (1)
 
 with k_r, k_a and k_i as shares of a bandwidth w, by the preset, at which an error of a tenth of a radian asks for the
-whole moment: the vehicle's mass matrix and limits are the gains. Speed has the loop with the drag at the wanted speed fed
+whole moment: mass matrix and limits are the gains. Speed has the loop with the drag at the wanted speed fed
 forward. Where heave is driven, depth is kept by heave, with the bow level; else by pitch.
 """
 
