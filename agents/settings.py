@@ -65,6 +65,7 @@ class AutopilotSettings(Settings):
         look_ahead_time: of the line of sight, over the time constant of the angle loop.
         adaptation: of the drift angle, over the rate that damps the path's error critically.
         largest_drift_angle: that adaptation may find [rad].
+        bend_margin: radius of bends to a waypoint, over that of the tightest turn at the slowest speed.
         slowing_angle: turn ahead at which a vehicle between waypoints goes slowest [rad].
         haste: speed between waypoints, over the speed of journeys.
         slowest: speed at the slowest, over that between waypoints.
@@ -84,6 +85,7 @@ class AutopilotSettings(Settings):
     look_ahead_time: Positive
     adaptation: NonNegative
     largest_drift_angle: Positive
+    bend_margin: Positive
     slowing_angle: Positive
     haste: Positive
     slowest: Fraction

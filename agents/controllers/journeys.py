@@ -103,7 +103,7 @@ class WaypointController:
         length = inner.vehicle.dimensions.length
         if self._pilot.stopping_distance(self._speed) < length:
             self._slowest = self._settings.slowest
-            self._bend = self._pilot.turning_radius(self._slowest * self._speed)
+            self._bend = self._settings.bend_margin * self._pilot.turning_radius(self._slowest * self._speed)
         else:
             self._slowest = self._settings.slowest_of_heavy
             self._bend = self._settings.tightest_turn * length

@@ -20,15 +20,8 @@ from dq_marine.task.protocol import Situation, Start
 
 STEPS, STEP_DRAWS = 3, 3  # orders in an episode, and random numbers for each
 PERIODS = 300  # control periods of each order
-FIRST_DEPTH, LEAST_DEPTH = (
-    30.0,
-    5.0,
-)  # of starts, or ten lengths of long vehicles; orders are no less deep [m]
-DEPTH, HEADING, SPEED = (
-    0.5,
-    math.radians(5.0),
-    0.1,
-)  # settled within these [m, rad, share of the cruising speed]
+FIRST_DEPTH, LEAST_DEPTH = 30.0, 5.0  # of starts (or ten lengths, if more), and of orders at least [m]
+DEPTH, HEADING, SPEED = 0.3, math.radians(3.0), 0.1  # settled within these [m, rad, share of the cruise]
 HELD = 5.0  # success of an order: settled for that long [s]
 LOST = 3.0  # episodes end beyond this error of depth [largest steps of depth]
 

@@ -57,7 +57,8 @@ def test_controller_mistakes_are_named(tmp_path: Path) -> None:
 
 def test_what_is_no_preset(tmp_path: Path) -> None:
     with pytest.raises(
-        InvalidInputError, match="no preset or file 'ddpg'; the presets are autopilot, dp_controller, ppo, sac"
+        InvalidInputError,
+        match="no preset or file 'ddpg'; the presets are autopilot, dp_controller, ppo, sac",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"
