@@ -25,11 +25,8 @@ LEAST_DEPTH = 20.0  # of starts of vehicles that do not float; ten lengths of lo
 START_OFFSET, START_TURN, START_DRAWS = 0.5, math.radians(20.0), 3  # from the path [lengths, rad]
 LEG_TIME = 10.0  # legs take this long at least [s]
 ACQUIRED = 1.0  # span from whose beginning on errors count
-CORRIDOR, LEAST, SPEED_TOLERANCE = (
-    0.25,
-    0.5,
-    0.1,
-)  # success: within these [lengths but m at least, of the speed]
+CORRIDOR, LEAST = 0.25, 0.5  # success: never farther than this from the path [lengths, but at least m]
+SPEED_TOLERANCE = 0.1  # and the mean error of the speed below this [share of the speed]
 LOST = 5.0  # episodes end beyond this distance from the path [lengths]
 AHEAD = 0.25  # how far ahead the curvature is shown, too [spans]
 FAR, STEEP = 10.0, 10.0  # bounds of what is shown: distances [lengths], curvatures [1/lengths]

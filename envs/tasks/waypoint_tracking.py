@@ -152,5 +152,5 @@ define_task(
     },
     unsuitable=unable_to_travel,
     control_period=paced,
-    max_episode_steps=2000,
+    max_episode_steps=2500,
 )
