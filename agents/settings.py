@@ -48,6 +48,50 @@ class ControllerSettings(Settings):
     anti_windup_time: Positive
 
 
+class AutopilotSettings(Settings):
+    """Guidance and autopilot of journeys, as ratios that the vehicle turns into gains.
+
+    Attributes:
+        saturating_angle: heading or pitch error that asks for all of the moment at rest [rad].
+        saturating_share: error of the speed, over the largest, that asks for all of the thrust.
+        fastest_loop: bound of a rate loop's gain times the control period.
+        rate_gain: of a rate loop, over its bandwidth.
+        angle_gain: of the angle loop round it, over the same.
+        angle_of_fastest_rate: angle error that asks for no more than the fastest rate against damping [rad].
+        integral_rate: of the rate loop's integral, over the same.
+        tightest_turn: radius of the tightest turn that is asked for [vehicle lengths].
+        steepest_pitch: largest pitch that is asked for [rad].
+        shortest_look_ahead: of the line of sight [vehicle lengths].
+        look_ahead_time: of the line of sight, over the time constant of the angle loop.
+        adaptation: of the drift angle, over the rate that damps the path's error critically.
+        largest_drift_angle: that adaptation may find [rad].
+        bend_margin: radius of bends to a waypoint, over that of the tightest turn at the slowest speed.
+        slowing_angle: turn ahead at which a vehicle between waypoints goes slowest [rad].
+        haste: speed between waypoints, over the speed of journeys.
+        slowest: speed at the slowest, over that between waypoints.
+        slowest_of_heavy: the same, of a vehicle that needs more than its length to stop.
+    """
+
+    saturating_angle: Positive
+    saturating_share: Positive
+    fastest_loop: Annotated[float, Field(gt=0.0, lt=1.0)]
+    rate_gain: Positive
+    angle_gain: Positive
+    angle_of_fastest_rate: Positive
+    integral_rate: NonNegative
+    tightest_turn: Positive
+    steepest_pitch: Annotated[float, Field(gt=0.0, lt=1.5)]
+    shortest_look_ahead: Positive
+    look_ahead_time: Positive
+    adaptation: NonNegative
+    largest_drift_angle: Positive
+    bend_margin: Positive
+    slowing_angle: Positive
+    haste: Positive
+    slowest: Fraction
+    slowest_of_heavy: Fraction
+
+
 class EnvironmentSettings(Settings):
     """The environment: its registered id and the keywords of `gymnasium.make`."""
 

@@ -32,8 +32,11 @@ from dq_marine.envs.core.module_task import define_task
 from dq_marine.envs.core.observed import GOAL_MOTION, VELOCITY
 from dq_marine.envs.core.places import goal_place
 from dq_marine.envs.core.suitability import (
+    cruising_speed,
+    paced,
     speed_ahead,
     too_slow,
+    unable_to_dive_under_way,
     unable_to_hold_a_pose,
     unable_to_keep_up,
     unable_to_position,
@@ -44,6 +47,7 @@ from dq_marine.task.common import SPEED_BOUND, effort, make_pick, observed_curve
 from dq_marine.task.harmonics import Curve, CurvePoint, curve_point, level_course, moved_to
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.shapes import SHAPE_DRAWS, SHAPES, STEEPEST, shaped_curve
+from dq_marine.task.splines import beside, curvature, make_spline, make_winding, path_axes, winding_draws
 from dq_marine.task.starts import SLOW_START_DRAWS, make_walk, slow_start, symmetric3
 
 __all__ = [
@@ -68,8 +72,11 @@ __all__ = [
     "Vector3",
     "add",
     "add_scaled",
+    "beside",
     "bounded",
     "bounded_vector",
+    "cruising_speed",
+    "curvature",
     "curve_point",
     "define_task",
     "dot",
@@ -80,12 +87,16 @@ __all__ = [
     "goal_place",
     "level_course",
     "make_pick",
+    "make_spline",
     "make_walk",
+    "make_winding",
     "moved_to",
     "norm",
     "observed_curve_motion",
     "observed_velocity",
     "one_of",
+    "paced",
+    "path_axes",
     "quaternion_conjugate",
     "quaternion_from_euler",
     "quaternion_multiply",
@@ -99,8 +110,10 @@ __all__ = [
     "subtract",
     "symmetric3",
     "too_slow",
+    "unable_to_dive_under_way",
     "unable_to_hold_a_pose",
     "unable_to_keep_up",
     "unable_to_position",
     "unable_to_travel",
+    "winding_draws",
 ]

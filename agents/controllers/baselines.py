@@ -8,6 +8,7 @@ import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.controllers.dp_controller import DPController
+from dq_marine.agents.controllers.journeys import DepthHeadingController, PathController, WaypointController
 from dq_marine.agents.controllers.reading import shown_names
 from dq_marine.agents.environments import marine
 from dq_marine.checks import one_of
@@ -50,7 +51,12 @@ class Controller(Agent, Protocol):
         """
 
 
-CONTROLLERS: tuple[type[Controller], ...] = (DPController,)
+CONTROLLERS: tuple[type[Controller], ...] = (
+    DPController,
+    PathController,
+    WaypointController,
+    DepthHeadingController,
+)
 """What "controller" may mean: the first of them that an environment shows enough to."""
 
 

@@ -109,7 +109,7 @@ class ComposedTask:
             raise InvalidInputError(f"settings and {sorted(given)} are given; give the one or the others")
         if settings is not None and not isinstance(settings, Settings):
             raise InvalidInputError(f"settings = {shown(settings)}; give a dq_marine.Settings")
-        chosen = settings or Settings(**(_defaults(definition) | given))
+        chosen = settings or _with_defaults(definition, given)
         finite_number("control_period", chosen.control_period, above=0.0)
         own = definition.checked_settings(of_task, chosen.flown)
         weights = definition.checked_weights(reward)
@@ -292,14 +292,14 @@ def _check_parameters(definition: TaskDefinition, parameters: Any) -> None:
         )
 
 
-def _defaults(definition: TaskDefinition) -> dict[str, Any]:
-    return {
-        "vehicle": definition.vehicle,
-        "current": None,
-        "control_period": definition.control_period,
-        "substeps": definition.substeps,
-        **definition.surroundings,
-    }
+def _with_defaults(definition: TaskDefinition, given: dict[str, Any]) -> Settings:
+    """Return settings with a task's own defaults for what is not given."""
+    own = {"vehicle": definition.vehicle, "current": None, "substeps": definition.substeps}
+    defaults = own | dict(definition.surroundings)
+    chosen = Settings(**(defaults | given))
+    if "control_period" in given:
+        return chosen
+    return replace(chosen, control_period=definition.period_for(chosen.flown))
 
 
 def _warn_if_unsuitable(definition: TaskDefinition, vehicle: Vehicle) -> None:

@@ -124,7 +124,7 @@ class TaskDefinition:
         unsuitable: (vehicle) -> why the task cannot be done with it; None where it can.
         surroundings: defaults of other keywords of `dq_marine.Settings`, by name, where the task has its own.
         vehicle: the default one.
-        control_period: the default one [s].
+        control_period: the default one [s]; or (vehicle) -> the default one, of a task whose pace is the vehicle's.
         substeps: the default number of integrator steps in a control period.
         max_episode_steps: control periods after which an episode is truncated.
     """
@@ -147,7 +147,7 @@ class TaskDefinition:
     unsuitable: Callable[[Vehicle], str | None] = suits_all
     surroundings: Mapping[str, Any] = field(default_factory=dict)
     vehicle: str = "bluerov2_heavy"
-    control_period: float = 0.1
+    control_period: float | Callable[[Vehicle], float] = 0.1
     substeps: int = 4
     max_episode_steps: int = 300
 
@@ -170,6 +170,11 @@ class TaskDefinition:
     def keywords(self) -> tuple[str, ...]:
         """Names of its own keywords."""
         return tuple(one.name for one in fields(self.settings))
+
+    def period_for(self, vehicle: Vehicle) -> float:
+        """Return the default control period for a vehicle [s]."""
+        own = self.control_period
+        return own(vehicle) if callable(own) else own
 
     def at_level(self, level: str | None, given: Mapping[str, Any]) -> dict[str, Any]:
         """Return keywords, with those of a level of difficulty for what is not given; None is no level.

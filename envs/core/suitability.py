@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
 
-SURGE, SWAY, YAW = 0, 1, 5
+SURGE, SWAY, HEAVE, PITCH, YAW = 0, 1, 2, 4, 5
+
+CRUISE = 0.6
+"""Speed of journeys over the largest."""
+
+PERIODS_A_LENGTH = 15.0
+"""Control periods in which a vehicle at full speed goes its own length, where these are longer than the shortest."""
+
+SHORTEST_PERIOD, LONGEST_PERIOD = 0.1, 5.0
+"""Control periods [s]; beyond the longer one, the explicit steps of ships that roll get coarse."""
 
 SLOWEST = 5.0
 """Time in which a vehicle that is quick enough for episodes of half a minute goes its own length [s]."""
@@ -18,6 +28,33 @@ def speed_ahead(vehicle: Vehicle) -> float:
     from dq_marine.vehicles.analysis.sheet import terminal_speed  # here: `import dq_marine` stays light
 
     return terminal_speed(vehicle, SURGE)
+
+
+def cruising_speed(vehicle: Vehicle) -> float:
+    """Return a speed for journeys [m/s]: three fifths of the largest, and of that at which a free pitch gets unstable.
+
+    Below the surface, Munk's moment (A_33 - A_11) u^2 theta of the added mass turns a vehicle across its way; where
+    nothing drives pitch, it is the righting moment alone that holds it (Fossen 2021, Handbook of Marine Craft, 6.3).
+    """
+    speed = speed_ahead(vehicle)
+    added, righting = vehicle.added_mass_matrix, float(vehicle.restoring_arm[2])
+    munk = float(added[HEAVE, HEAVE] - added[SURGE, SURGE])
+    if vehicle.hydrostatics is None and not vehicle.wrench_limits[PITCH] and munk > 0.0:
+        speed = min(speed, math.sqrt(max(0.0, righting) / munk))
+    return CRUISE * speed
+
+
+def paced(vehicle: Vehicle) -> float:
+    """Return a control period for journeys: a fifteenth of the time for its own length, rounded, and 0.1 s or more.
+
+    A ship of 170 m that goes 9 m/s acts every second, and goes as many lengths in an episode as a vehicle of 3 m.
+    """
+    speed = speed_ahead(vehicle)
+    if not 0.0 < speed < math.inf:
+        return SHORTEST_PERIOD
+    period = max(SHORTEST_PERIOD, vehicle.dimensions.length / speed / PERIODS_A_LENGTH)
+    digits = -math.floor(math.log10(period))
+    return min(LONGEST_PERIOD, round(period, digits))
 
 
 def unable_to_hold_a_pose(vehicle: Vehicle) -> str | None:
@@ -37,6 +74,16 @@ def unable_to_travel(vehicle: Vehicle) -> str | None:
     if limits[SURGE] and (limits[SWAY] or limits[YAW]):
         return None
     return "the task goes from place to place, and the vehicle cannot drive ahead and turn"
+
+
+def unable_to_dive_under_way(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle cannot change depth while it goes ahead and turns; None if it can."""
+    limits = vehicle.wrench_limits
+    if vehicle.hydrostatics is not None:
+        return "the task is to dive, and the vehicle floats"
+    if limits[SURGE] and limits[YAW] and (limits[HEAVE] or limits[PITCH]):
+        return None
+    return "the task is to go ahead, turn and dive, and the vehicle cannot drive all three"
 
 
 def unable_to_keep_up(vehicle: Vehicle) -> str | None:

@@ -9,7 +9,7 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import Vector3, bounded_vector, norm, subtract
 from dq_marine.checks import finite_number
-from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, unable_to_travel
+from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, paced, unable_to_travel
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import effort, make_pick, observed_velocity
 from dq_marine.task.protocol import Situation, Start
@@ -145,6 +145,12 @@ define_task(
     summary="Visit a random sequence of waypoints, one after the other, in an unseen current.",
     draws=SLOW_START_DRAWS + 3 * WAYPOINTS,
     units={"waypoint_distance": "m"},
+    levels={
+        "easy": {"spacing": 6.0, "current": 0.0},
+        "medium": {"current": 0.3},
+        "hard": {"spacing": 10.0, "current": 0.4, "randomise": "default", "sensors": "auv"},
+    },
     unsuitable=unable_to_travel,
-    max_episode_steps=600,
+    control_period=paced,
+    max_episode_steps=2500,
 )

@@ -149,13 +149,23 @@ def terminal_speed(vehicle: Vehicle, axis: int) -> float:
     In closed form, d v + q v^2 = F; by bisection where damping is blended, or polynomials have it.
     """
     limit = float(vehicle.wrench_limits[axis])
-    linear = float(vehicle.linear_damping[axis, axis])
-    quadratic = float(vehicle.quadratic_damping[axis]) + own_axis_drag(vehicle, axis)
-    quadratic += sum(
-        float(drag.own_axis_coefficients(vehicle.buoyancy.water_density)[axis]) for drag in vehicle.cross_flow
-    )
     if limit == 0.0:
         return 0.0
+    linear, quadratic = _own_axis_coefficients(vehicle, axis)
+    # The root in the form that stands without a quadratic part.
+    denominator = linear + math.sqrt(linear * linear + 4.0 * quadratic * limit)
+    in_closed_form = 2.0 * limit / denominator if denominator > 0.0 else math.inf
+    if vehicle.whole_ship is not None or any(one.index == axis for one in vehicle.damping.blended):
+        return _first_speed_with(drag_of(vehicle, axis), limit, in_closed_form)
+    return in_closed_form
+
+
+def drag_of(vehicle: Vehicle, axis: int) -> Callable[[float], float]:
+    """Return (speed of 0 or more) -> drag, for one axis with the others held [N, N m].
+
+    Of a ship by polynomials that is what is left of it by the propeller in them.
+    """
+    linear, quadratic = _own_axis_coefficients(vehicle, axis)
     blends = [blended for blended in vehicle.damping.blended if blended.index == axis]
     of_polynomials = own_axis_force(vehicle, axis)
 
@@ -163,12 +173,16 @@ def terminal_speed(vehicle: Vehicle, axis: int) -> float:
         own = linear * speed + quadratic * speed**2 - of_polynomials(speed)
         return own + sum(blended.alone(speed) for blended in blends)
 
-    # The root in the form that stands without a quadratic part.
-    denominator = linear + math.sqrt(linear * linear + 4.0 * quadratic * limit)
-    in_closed_form = 2.0 * limit / denominator if denominator > 0.0 else math.inf
-    if blends or vehicle.whole_ship is not None:
-        return _first_speed_with(drag_at, limit, in_closed_form)
-    return in_closed_form
+    return drag_at
+
+
+def _own_axis_coefficients(vehicle: Vehicle, axis: int) -> tuple[float, float]:
+    """Return the linear and the quadratic damping of an axis by itself."""
+    quadratic = float(vehicle.quadratic_damping[axis]) + own_axis_drag(vehicle, axis)
+    quadratic += sum(
+        float(drag.own_axis_coefficients(vehicle.buoyancy.water_density)[axis]) for drag in vehicle.cross_flow
+    )
+    return float(vehicle.linear_damping[axis, axis]), quadratic
 
 
 def _first_speed_with(drag_at: Callable[[float], float], force: float, most: float) -> float:
