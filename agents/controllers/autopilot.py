@@ -158,8 +158,8 @@ class Autopilot:
         return max(least, self.settings.look_ahead_time * speed / self.angle_gain(axis))
 
     def turning_radius(self, speed: float) -> float:
-        """Return the radius [m] of the tightest turn at a speed, as the damping of yaw alone has it."""
-        return speed / self._fastest_rates[YAW]
+        """Return the radius [m] of the tightest turn at a speed that is asked for, or that damping of yaw allows."""
+        return speed / min(self._fastest_turn(speed), self._fastest_rates[YAW])
 
     def stopping_distance(self, speed: float) -> float:
         """Return the way [m] that full thrust astern takes to stop the vehicle at a speed, were there no drag."""
@@ -179,7 +179,7 @@ class Autopilot:
         """Return the wrench wanted now, shape (6,) [N, N m]."""
         velocity, down = attitude.velocity_body, attitude.down_body
         held = -np.concatenate([self._net_weight * down, np.cross(self._arm, down)])
-        fastest = max(order.speed, 0.3 * self.top_speed) / (self.settings.tightest_turn * self.length)
+        fastest = self._fastest_turn(order.speed)
         turn = order.turn_rate + self.angle_gain(YAW) * wrapped(order.heading_error)
         turn = max(-fastest, min(fastest, turn))
         steepest = self.settings.steepest_pitch
@@ -195,6 +195,10 @@ class Autopilot:
         errors = [order.speed_error, 0.0, sink, p - velocity[3], q - velocity[4], r - velocity[5]]
         ahead = [self._drag(max(0.0, order.speed)), 0.0, *held[2:5].tolist(), self._against_turning(turn)]
         return np.array([self._loops[i].force(float(errors[i]), ahead[i]) for i in range(6)])
+
+    def _fastest_turn(self, speed: float) -> float:
+        """Return the largest turn rate that is asked for at a speed [rad/s]."""
+        return max(speed, 0.3 * self.top_speed) / (self.settings.tightest_turn * self.length)
 
     def _against_turning(self, turn: float) -> float:
         """Return the moment that damping takes at a turn rate, half of the limit at most [N m]."""
