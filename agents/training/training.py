@@ -90,7 +90,7 @@ def begin_training(
     Raises:
         InvalidInputError: the folder is taken, the seed is too large, or the environment's keywords are wrong.
     """
-    whole_number("seed", seed, least=0, most=LARGEST_SEED)
+    seed = whole_number("seed", seed, least=0, most=LARGEST_SEED)
     make_environment(settings.environment).close()  # so that a mistake leaves an earlier run untouched
     plan = RunPlan(settings, seed, _versions())
     with folder.begun(plan, force=force):

@@ -35,9 +35,9 @@ class Conditions:
     radiation: str = CONSTANT
 
     def __post_init__(self) -> None:
-        fraction("throttle", self.throttle)
+        object.__setattr__(self, "throttle", fraction("throttle", self.throttle))
         if self.step is not None:
-            finite_number("step", self.step, least=LEAST_STEP)
+            object.__setattr__(self, "step", finite_number("step", self.step, least=LEAST_STEP))
         if self.actuation is not None:
             one_of("actuation", self.actuation, ACTUATIONS)
         one_of("radiation", self.radiation, RADIATIONS)

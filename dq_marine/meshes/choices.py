@@ -77,9 +77,10 @@ class Choices:
         """
         for key in ("mass", "draft", "speed"):
             if getattr(self, key) is not None:
-                finite_number(key, getattr(self, key), above=0.0)
+                object.__setattr__(self, key, finite_number(key, getattr(self, key), above=0.0))
         if self.water_density is not None:
-            finite_number("water_density", self.water_density, least=500.0, most=1500.0)
+            density = finite_number("water_density", self.water_density, least=500.0, most=1500.0)
+            object.__setattr__(self, "water_density", density)
         one_of("unit", self.unit, UNITS)
         one_of("axes", self.axes, AXES)
         one_of("origin", self.origin, ORIGINS)
@@ -87,13 +88,15 @@ class Choices:
             one_of("shape", self.shape, SHAPES)
         for key, size in (("center_of_mass", 3), ("inertia", 3), ("limits", 6)):
             _check_numbers(key, getattr(self, key), size)
-        checked_gravity(self.gravity)
+        object.__setattr__(self, "gravity", checked_gravity(self.gravity))
         if not isinstance(self.afloat, bool | np.bool_):
             raise InvalidInputError(f"afloat = {shown(self.afloat)}; give True or False")
         if self.name is not None and not (isinstance(self.name, str) and self.name.strip()):
             raise InvalidInputError(f"name = {shown(self.name)}; give a text")
-        whole_number("panels", self.panels, least=100, most=MOST_PANELS)
-        whole_number("frequencies", self.frequencies, least=0, most=MOST_FREQUENCIES)
+        panels = whole_number("panels", self.panels, least=100, most=MOST_PANELS)
+        frequencies = whole_number("frequencies", self.frequencies, least=0, most=MOST_FREQUENCIES)
+        object.__setattr__(self, "panels", panels)
+        object.__setattr__(self, "frequencies", frequencies)
         if self.draft is not None and (self.mass is not None or self.afloat):
             raise InvalidInputError(
                 f"draft = {self.draft:g} says the mass, too; give the draft alone, or the mass and that it is afloat"

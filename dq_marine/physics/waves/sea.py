@@ -80,8 +80,11 @@ class Sea:
             raise InvalidInputError(
                 f"spectrum = {shown(self.spectrum)}; give a Jonswap, PiersonMoskowitz or ModifiedPiersonMoskowitz"
             )
-        finite_number("direction", self.direction)
-        if positive_integer("components", self.components) > MOST_COMPONENTS:
+        checked = {
+            "direction": finite_number("direction", self.direction),
+            "components": positive_integer("components", self.components),
+        }
+        if checked["components"] > MOST_COMPONENTS:
             raise InvalidInputError(f"components = {self.components}; give at most {MOST_COMPONENTS}")
         if self.spreading is not None:
             spreading = finite_number("spreading", self.spreading, above=0.0)
@@ -89,9 +92,12 @@ class Sea:
                 raise InvalidInputError(
                     f"spreading = {spreading:g}; give at most {LARGEST_SPREADING:g}, or None"
                 )
+            checked["spreading"] = spreading
         if self.depth is not None:
-            finite_number("depth", self.depth, above=0.0)
+            checked["depth"] = finite_number("depth", self.depth, above=0.0)
         generator(self.seed)
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
 
     @cached_property
     def _drawn(self) -> tuple[Array, Array, Array]:

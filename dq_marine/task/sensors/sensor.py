@@ -54,11 +54,12 @@ class Sensor:
             label, value = f"sensors: {type(self).__name__}.{one.name}", getattr(self, one.name)
             if one.name == "rate":
                 if value is not None:
-                    finite_number(label, value, above=0.0)
+                    object.__setattr__(self, one.name, finite_number(label, value, above=0.0))
                 continue
             number = finite_number(label, value)
             if number < 0.0 and one.name not in MAY_BE_NEGATIVE:
                 raise InvalidInputError(f"{label} = {number:g}; give 0 or more")
+            object.__setattr__(self, one.name, number)
         if self.dropout > 1.0:
             raise InvalidInputError(f"sensors: {type(self).__name__}.dropout = {self.dropout:g}; give 0 to 1")
 
