@@ -1,13 +1,10 @@
 """What holds for every task that ships with every vehicle that it suits: the registry tells, so that none escapes."""
 
-import pickle
-import warnings
 from pathlib import Path
 
 import gymnasium as gym
 import numpy as np
 import pytest
-from gymnasium.utils.env_checker import check_env
 from support.separate import Separate, assert_flights_agree
 from support.sweeps import sweep
 
@@ -16,28 +13,19 @@ from dq_marine.envs.core.registry import registered_tasks, short_name
 from dq_marine.vehicles import load_vehicle, vehicle_names
 
 TASKS = {short_name(one): one for one in registered_tasks() if one.id.startswith("dq_marine/")}
+DEFAULTS = [(name, task.vehicle) for name, task in TASKS.items()]
 FLIGHTS = [
     (name, vehicle)
-    for name, task in TASKS.items()
-    for vehicle in vehicle_names()
-    if task.unsuitable(load_vehicle(vehicle)) is None
+    for i, (name, task) in enumerate(TASKS.items())
+    for j, vehicle in enumerate(vehicle_names())
+    if task.unsuitable(load_vehicle(vehicle)) is None and ((i + j) % 2 == 0 or (name, vehicle) in DEFAULTS)
 ]
-"""Every task with every vehicle of the catalogue that it suits."""
+"""Every task with every other vehicle that it suits, and every vehicle with some task: compiling for lanes is long.
 
-DEFAULTS = [(name, task.vehicle) for name, task in TASKS.items()]
+`tests/envs/core/test_registry.py` flies every task with every vehicle, one by one.
+"""
 
 every_flight = pytest.mark.parametrize(("task", "vehicle"), sweep(FLIGHTS, plain=DEFAULTS))
-
-
-@pytest.mark.parametrize("task", TASKS)
-def test_both_checkers_pass(task):
-    from stable_baselines3.common.env_checker import check_env as check_env_sb3
-
-    env = gym.make(TASKS[task].id)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        check_env(env.unwrapped, skip_render_check=True)
-        check_env_sb3(env.unwrapped)
 
 
 @every_flight
@@ -56,20 +44,6 @@ def test_ten_thousand_random_steps_stay_finite_and_within_the_observation_space(
         observations, rewards, *_ = envs.step(envs.action_space.sample())
         assert np.isfinite(rewards).all()
         assert observations in envs.observation_space
-
-
-@pytest.mark.parametrize("task", TASKS)
-def test_an_environment_that_was_pickled_goes_on_alike(task):
-    env = gym.make(TASKS[task].id)
-    env.reset(seed=3)
-    actions = np.random.default_rng(3).uniform(-1.0, 1.0, (20, *env.action_space.shape)).astype(np.float32)
-    for action in actions[:10]:
-        env.step(action)
-    other = pickle.loads(pickle.dumps(env))
-    for action in actions[10:]:
-        ours, theirs = env.step(action), other.step(action)
-        assert np.array_equal(ours[0], theirs[0])
-        assert ours[1:4] == theirs[1:4]
 
 
 @pytest.mark.parametrize("task", TASKS)
