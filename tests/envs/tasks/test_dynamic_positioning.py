@@ -3,6 +3,7 @@
 import gymnasium as gym
 import numpy as np
 import pytest
+from support.sweeps import sweep
 
 from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.controllers.dp_controller import within_authority
@@ -34,7 +35,7 @@ def test_starts_and_headings_are_drawn_within_what_is_said():
     assert 0.6 < max(headings) <= 0.7
 
 
-@pytest.mark.parametrize("level", ["easy", "medium"])
+@pytest.mark.parametrize("level", sweep(["easy", "medium"], plain=["easy"]))
 def test_a_ship_keeps_its_place_by_its_thrusters(level):
     env = made(level=level)
     episode = fly_episode(env, controller_for(env), seed=1)
@@ -60,7 +61,7 @@ def test_on_station_means_a_minute_within_both_limits():
 
 
 def test_a_ship_that_does_nothing_drifts_out_of_its_watch_circle():
-    env = made(level="medium", watch_radius=20.0)
+    env = made(level="easy", current=0.75, watch_radius=20.0)
     env.reset(seed=2)
     for _ in range(1200):
         *_, terminated, truncated, info = env.step(np.zeros(env.action_space.shape, np.float32))

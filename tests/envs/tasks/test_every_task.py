@@ -84,8 +84,12 @@ def test_a_task_is_one_file_of_at_most_250_lines_that_nobody_imports(task):
     assert importing == []
 
 
-@pytest.mark.parametrize("task", TASKS)
-def test_every_level_can_be_flown(task):
-    definition = TASKS[task]
-    for level in definition.levels:
-        gym.make(definition.id, level=level)
+LEVELS = [(name, level) for name, task in TASKS.items() for level in task.levels]
+
+
+@pytest.mark.parametrize(("task", "level"), sweep(LEVELS, plain=[("StationKeeping", "easy")]))
+def test_every_level_can_be_flown(task, level):
+    env = gym.make(TASKS[task].id, level=level)
+    env.reset(seed=0)
+    _, reward, *_ = env.step(env.action_space.sample())
+    assert np.isfinite(reward)
