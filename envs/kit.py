@@ -13,7 +13,7 @@ from dq_marine.algebra.quaternion import (
     rotate,
     rotate_inverse,
 )
-from dq_marine.algebra.selection import select
+from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.spatial import ZERO, Spatial
 from dq_marine.algebra.vector3 import (
     Vector3,
@@ -107,6 +107,7 @@ __all__ = [
     "shaped_curve",
     "slow_start",
     "speed_ahead",
+    "spread",
     "subtract",
     "symmetric3",
     "too_slow",

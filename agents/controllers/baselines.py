@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Protocol, Self
 import gymnasium as gym
 import numpy as np
 
+from dq_marine.agents.controllers.docking import DockingController
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.journeys import DepthHeadingController, PathController, WaypointController
 from dq_marine.agents.controllers.reading import shown_names
@@ -52,6 +53,7 @@ class Controller(Agent, Protocol):
 
 
 CONTROLLERS: tuple[type[Controller], ...] = (
+    DockingController,
     DPController,
     PathController,
     WaypointController,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import gymnasium as gym
 
 from dq_marine.agents.controllers.autopilot import PITCH, YAW, Autopilot, Order, seen
-from dq_marine.agents.controllers.guidance import AdaptiveSight, levelled, wrapped
+from dq_marine.agents.controllers.guidance import levelled, wrapped
+from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
 from dq_marine.agents.controllers.reading import parts_reader
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
@@ -21,7 +22,30 @@ MOTION = ("down_body", "linear_velocity_body", "angular_velocity_body")
 """Parts of an observation that tell of attitude and velocity, wherever the vehicle is."""
 
 
-class PathController:
+class Journey:
+    """What all controllers of journeys have: a reader of what is shown, their settings, and an autopilot."""
+
+    READS: ClassVar[tuple[str, ...]]
+
+    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+        """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
+        inner = marine(env)
+        self._vehicle = inner.vehicle
+        self._read = parts_reader(inner, self.READS)
+        self._settings = settings or read_settings("autopilot", AutopilotSettings)
+        self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
+
+    @classmethod
+    def for_env(cls, env: gym.Env[Any, Any]) -> Self:
+        """Return the controller for an environment's vehicle."""
+        return cls(env)
+
+    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
+        """Forget the episode before."""
+        self._pilot.reset()
+
+
+class PathController(Journey):
     """Leads a vehicle along a path by adaptive line of sight, level and vertical."""
 
     READS: ClassVar[tuple[str, ...]] = (
@@ -36,86 +60,42 @@ class PathController:
 
     def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        inner = marine(env)
-        self._read = parts_reader(inner, self.READS)
-        self._settings = settings or read_settings("autopilot", AutopilotSettings)
-        self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
-        self._sights: tuple[AdaptiveSight, AdaptiveSight] | None = None
-
-    @classmethod
-    def for_env(cls, env: gym.Env[Any, Any]) -> PathController:
-        """Return the controller for an environment's vehicle."""
-        return cls(env)
+        super().__init__(env, settings)
+        self._guidance = LineOfSight(self._pilot, self._settings)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
-        self._pilot.reset()
-        self._sights = None
+        super().reset(env)
+        self._guidance.reset()
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""
         parts = self._read(observation)
-        attitude, speed = seen(parts), float(parts["commanded_speed"][0])
-        level, upright = self._sights or self._make_sights(speed)
-        way = levelled(tuple(parts["path_ahead_body"].tolist()), attitude.roll, attitude.pitch)
-        bends = 0.5 * (parts["path_bend_body"] + parts["path_bend_soon_body"])
-        bend = levelled(tuple(bends.tolist()), attitude.roll, attitude.pitch)
-        along = math.hypot(way[0], way[1])
-        turning = speed * (way[0] * bend[1] - way[1] * bend[0]) / along / self._pilot.length
-        course = math.atan2(way[1], way[0])
-        course += level.correction(float(parts["starboard_of_path"][0]), speed)
-        climb = math.atan2(-way[2], along) + upright.correction(-float(parts["below_path"][0]), speed)
-        order = Order(
-            speed,
-            speed - attitude.speed,
-            course - attitude.drift_angle,
-            turning,
-            climb,
+        attitude = seen(parts)
+        off = Offset(float(parts["starboard_of_path"][0]), float(parts["below_path"][0]))
+        bend = 0.5 * (parts["path_bend_body"] + parts["path_bend_soon_body"])
+        speed = float(parts["commanded_speed"][0])
+        return self._pilot.act(
+            attitude, self._guidance.order(attitude, speed, parts["path_ahead_body"], bend, off)
         )
-        return self._pilot.act(attitude, order)
-
-    def _make_sights(self, speed: float) -> tuple[AdaptiveSight, AdaptiveSight]:
-        """Return the laws for both planes, at a speed."""
-        pilot, settings = self._pilot, self._settings
-        axes = (YAW, PITCH if pilot.dives and not pilot.by_heave else YAW)
-        turn, tilt = (
-            AdaptiveSight(
-                pilot.look_ahead(speed, axis), settings.adaptation, settings.largest_drift_angle, pilot.period
-            )
-            for axis in axes
-        )
-        self._sights = (turn, tilt)
-        return self._sights
 
 
-class WaypointController:
+class WaypointController(Journey):
     """Leads a vehicle from waypoint to waypoint: its course goes straight to the next, and slowly round bends."""
 
     READS: ClassVar[tuple[str, ...]] = ("waypoint_body", *MOTION)
 
     def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        inner = marine(env)
-        self._read = parts_reader(inner, self.READS)
-        self._settings = settings or read_settings("autopilot", AutopilotSettings)
-        self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
-        self._speed = cruising_speed(inner.vehicle) * self._settings.haste
-        length = inner.vehicle.dimensions.length
+        super().__init__(env, settings)
+        self._speed = cruising_speed(self._vehicle) * self._settings.haste
+        length = self._vehicle.dimensions.length
         if self._pilot.stopping_distance(self._speed) < length:
             self._slowest = self._settings.slowest
             self._bend = self._settings.bend_margin * self._pilot.turning_radius(self._slowest * self._speed)
         else:
             self._slowest = self._settings.slowest_of_heavy
             self._bend = self._settings.tightest_turn * length
-
-    @classmethod
-    def for_env(cls, env: gym.Env[Any, Any]) -> WaypointController:
-        """Return the controller for an environment's vehicle."""
-        return cls(env)
-
-    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
-        """Forget the episode before."""
-        self._pilot.reset()
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""
@@ -135,26 +115,10 @@ class WaypointController:
         return self._pilot.act(attitude, Order(speed, error, turn, 0.0, climb))
 
 
-class DepthHeadingController:
+class DepthHeadingController(Journey):
     """Brings a vehicle to the depth, the heading and the speed that are ordered."""
 
     READS: ClassVar[tuple[str, ...]] = ("deeper", "turn_cosine_sine", "speed_error", "ordered_speed", *MOTION)
-
-    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
-        """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        inner = marine(env)
-        self._read = parts_reader(inner, self.READS)
-        self._settings = settings or read_settings("autopilot", AutopilotSettings)
-        self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
-
-    @classmethod
-    def for_env(cls, env: gym.Env[Any, Any]) -> DepthHeadingController:
-        """Return the controller for an environment's vehicle."""
-        return cls(env)
-
-    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
-        """Forget the episode before."""
-        self._pilot.reset()
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""

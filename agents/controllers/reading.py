@@ -87,7 +87,7 @@ def goal_reader(env: MarineEnv) -> Callable[[Observation], Reading]:
 
     def read(observation: Observation) -> Reading:
         parts = read_parts(observation)
-        pose = _goal_pose(*(parts[name] for name in GOAL_POSE))
+        pose = goal_pose(*(parts[name] for name in GOAL_POSE))
         if not moving:
             return pose
         velocity, turn_rate, acceleration = (parts[name] for name in GOAL_MOTION)
@@ -103,10 +103,11 @@ def goal_reader(env: MarineEnv) -> Callable[[Observation], Reading]:
 def read_goal_pose(observation: Observation) -> Reading:
     """Return the goal pose of an observation that begins with the parts of `GOAL_POSE`, shape (18, or more)."""
     numbers = np.asarray(observation, dtype=np.float64)
-    return _goal_pose(numbers[:3], numbers[3:6], numbers[6:9], numbers[9:12], numbers[12:15])
+    return goal_pose(numbers[:3], numbers[3:6], numbers[6:9], numbers[9:12], numbers[12:15])
 
 
-def _goal_pose(position: Array, x_axis: Array, y_axis: Array, linear: Array, angular: Array) -> Reading:
+def goal_pose(position: Array, x_axis: Array, y_axis: Array, linear: Array, angular: Array) -> Reading:
+    """Return the goal pose that the parts `GOAL_POSE` tell of, each of shape (3,)."""
     goal_to_body = np.column_stack([x_axis, y_axis, np.cross(x_axis, y_axis)])
     error = np.concatenate([position, rotation_vector(goal_to_body)])
     return Reading(error, np.concatenate([linear, angular]), goal_to_body)

@@ -68,6 +68,11 @@ def unable_to_hold_a_pose(vehicle: Vehicle) -> str | None:
     )
 
 
+def steers_only_under_way(vehicle: Vehicle) -> bool:
+    """Whether a vehicle cannot stop and hold a pose, and must come to a place at speed."""
+    return unable_to_hold_a_pose(vehicle) is not None
+
+
 def unable_to_travel(vehicle: Vehicle) -> str | None:
     """Return why a vehicle cannot go from place to place; None if it can."""
     limits = vehicle.wrench_limits

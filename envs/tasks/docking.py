@@ -1,0 +1,251 @@
+"""Docking: bring the bow through a funnel into a dock that heaves, slowly enough, in an unseen current."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+from dq_marine.algebra.euler import quaternion_from_euler
+from dq_marine.algebra.quaternion import rotate_inverse
+from dq_marine.algebra.selection import spread
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.vector3 import bounded_vector, norm, subtract
+from dq_marine.checks import finite_number
+from dq_marine.envs.core.suitability import (
+    cruising_speed,
+    paced,
+    steers_only_under_way,
+    unable_to_dive_under_way,
+)
+from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
+from dq_marine.integrator.body import Motion
+from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
+from dq_marine.task.docks import Contact, Dock, Funnel, Limits, across, approach, contact, heave_of, later
+from dq_marine.task.protocol import Situation, Start
+
+THROAT, LEAST_THROAT = 0.1, 0.1  # radius of the throat [lengths, but at least m]
+CONE, FLARE = 1.0, math.radians(20.0)  # length of the funnel [lengths], angle of its wall (1)
+ALIGNED = math.radians(15.0)  # of the bow with the dock
+SLOW, UNDER_WAY = 0.5, 1.2  # contact speed [share of the cruising speed]: of vehicles that stop, and that cannot
+SIDEWAYS = 0.5  # speed across in contact, as a share of that limit
+FARTHER = 3.0  # start vehicles that steer only under way, and from a narrower angle
+LEAST_DEPTH = 20.0  # of docks; ten lengths of long vehicles [m]
+LOST = 2.0  # episodes end beyond this distance from the dock [starting distances]
+START_TURN, START_DRAWS = math.radians(25.0), 5  # largest turn of a start away from the dock
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Distance of starts [vehicle lengths], half the angle they come from [degrees], heave of the dock, contact speed.
+
+    Vehicles that only steer under way start at three times the distance, within a third of the angle. The dock heaves
+    by an amplitude [throat radii] with a period [s]. A contact speed of None [m/s] is half the cruising speed, and six
+    fifths of it for vehicles that only steer under way.
+    """
+
+    distance: float = 8.0
+    angle: float = 45.0
+    heave: float = 1.0
+    heave_period: float = 8.0
+    contact_speed: float | None = None
+
+
+def fitted(given: Settings, vehicle: Any) -> Settings:
+    """Return the settings for a vehicle, checked."""
+    share = UNDER_WAY if steers_only_under_way(vehicle) else SLOW
+    contact = share * cruising_speed(vehicle) if given.contact_speed is None else given.contact_speed
+    return replace(
+        given,
+        distance=finite_number("distance", given.distance, least=3.0, most=1e3),
+        angle=finite_number("angle", given.angle, least=0.0, most=80.0),
+        heave=finite_number("heave", given.heave, least=0.0, most=1e2),
+        heave_period=finite_number("heave_period", given.heave_period, least=1.0, most=1e3),
+        contact_speed=finite_number("contact_speed", contact, above=0.0, most=10.0),
+    )
+
+
+class Parameters(NamedTuple):
+    """The numbers of an episode.
+
+    Attributes:
+        distance: of starts from the dock [m].
+        angle: half of that in which they are, seen from the dock [rad].
+        speed: of starts [m/s].
+        to_bow: from the vehicle's origin to its bow [m].
+        funnel: the dock's shape.
+        dock: but for its course and phase.
+        limits: of contact.
+        period: control period [s].
+    """
+
+    distance: float
+    angle: float
+    speed: float
+    to_bow: float
+    funnel: Funnel
+    dock: Dock
+    limits: Limits
+    period: float
+
+
+class Memory(NamedTuple):
+    """The dock, and what came of the bow's approach."""
+
+    dock: Dock
+    contact: Contact
+
+
+class Metrics(NamedTuple):
+    """Distance of the bow from the throat, and from the dock's axis [m]; angle to it [rad]; impact's speed [m/s]."""
+
+    distance: float
+    cross_error: float
+    angle_error: float
+    impact_speed: float
+
+
+class Rewards(NamedTuple):
+    """Terms of the reward, and their weights: nearness, place in the cone, angle, docked, struck, effort."""
+
+    nearness: float = 0.4
+    cone: float = 0.3
+    angle: float = 0.2
+    docked: float = 50.0
+    struck: float = 20.0
+    effort: float = 0.02
+
+
+def parameters(settings: Any, context: EpisodeContext) -> Parameters:
+    """Return the numbers of an episode."""
+    vehicle, length = context.vehicle, context.vehicle.dimensions.length
+    farther, narrower = (FARTHER, 1.0 / FARTHER) if steers_only_under_way(vehicle) else (1.0, 1.0)
+    throat = max(LEAST_THROAT, THROAT * length)
+    return Parameters(
+        farther * length * settings.distance,
+        narrower * math.radians(settings.angle),
+        cruising_speed(vehicle) if steers_only_under_way(vehicle) else 0.0,
+        0.5 * length,
+        Funnel(throat, CONE * length, math.tan(FLARE)),
+        Dock(1.0, 0.0, max(LEAST_DEPTH, 10.0 * length), throat * settings.heave, 0.0, math.tau / settings.heave_period),
+        Limits(settings.contact_speed, SIDEWAYS * settings.contact_speed, ALIGNED),
+        context.control_period,
+    )
+
+
+def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
+    """Return a start before the mouth of the dock, with the bow about towards it."""
+    course = 2.0 * math.pi * uniforms[0]
+    bearing = course + own.angle * (2.0 * uniforms[1] - 1.0)
+    slope = 0.5 * own.angle * (2.0 * uniforms[2] - 1.0)
+    level, below = own.distance * math.cos(slope), own.distance * math.sin(slope)
+    heading = bearing + START_TURN * (2.0 * uniforms[3] - 1.0)
+    return Start(
+        (-level * math.cos(bearing), -level * math.sin(bearing), own.dock.depth + below),
+        quaternion_from_euler(0.0, 0.0, heading),
+        Spatial((0.0, 0.0, 0.0), (own.speed, 0.0, 0.0)),
+    )
+
+
+def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
+    """Return a dock."""
+    course, phase = math.tau * uniforms[0], math.tau * uniforms[4]
+    dock = Dock(math.cos(course), math.sin(course), own.dock.depth, own.dock.heave, phase, own.dock.rate)
+    return Memory(dock, Contact(-own.distance, 0.0, 0.0, 0.0))
+
+
+def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
+    """Return the dock one control period on, and whether the bow is in it or has struck it."""
+    dock = later(memory.dock, own.period)
+    bow = approach(dock, motion, own.to_bow)
+    return Memory(dock, contact(own.funnel, own.limits, memory.contact.ahead, bow))
+
+
+def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
+    """Return what `observations` lists."""
+    depth, sinking, acceleration = heave_of(memory.dock)
+    north, east, attitude = memory.dock.north, memory.dock.east, measured.attitude
+    docked = (-own.to_bow * north, -own.to_bow * east, depth)
+    return (
+        bounded_vector(rotate_inverse(attitude, subtract(docked, measured.position_ned)), 2.0 * LOST * own.distance),
+        rotate_inverse(attitude, (north, east, 0.0)),
+        rotate_inverse(attitude, (-east, north, 0.0)),
+        observed_velocity(measured),
+        bounded_vector(rotate_inverse(attitude, (0.0, 0.0, sinking)), SPEED_BOUND),
+        bounded_vector(rotate_inverse(attitude, (0.0, 0.0, acceleration)), SPEED_BOUND),
+        rotate_inverse(attitude, (0.0, 0.0, 1.0)),
+        spread(own.funnel.throat, sinking),
+        spread(own.limits.ahead, sinking),
+    )
+
+
+def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
+    """Return what an observation consists of: all in the body frame."""
+    length = vehicle.dimensions.length
+    far = 2.0 * LOST * length * settings.distance * (FARTHER if steers_only_under_way(vehicle) else 1.0)
+    return (
+        Observed("goal_position_body", "m", 3, far, "where the vehicle's origin is when docked"),
+        Observed("goal_x_axis_body", "", 3, 1.0, "where the bow points then"),
+        Observed("goal_y_axis_body", "", 3, 1.0, "its starboard"),
+        *VELOCITY,
+        Observed("dock_velocity_body", "m/s", 3, SPEED_BOUND, "how fast the dock goes"),
+        Observed("dock_acceleration_body", "m/s^2", 3, SPEED_BOUND, "its acceleration"),
+        Observed("down_body", "", 3, 1.0, "where down is"),
+        Observed("throat_radius", "m", 1, 1e3, "by how much the bow may be beside the dock's axis at last"),
+        Observed("contact_speed_limit", "m/s", 1, SPEED_BOUND, "how fast the bow may come to the dock"),
+    )
+
+
+def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
+    """Return how far and how well the bow is before the dock."""
+    bow = approach(memory.dock, motion, own.to_bow)
+    return Metrics(norm(bow.place), across(bow.place), bow.angle, memory.contact.speed)
+
+
+def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
+    """Return the terms of the reward."""
+    metrics = now.metrics
+    wide = metrics.cross_error / (own.funnel.throat + own.funnel.flare * metrics.distance)
+    turned = metrics.angle_error / ALIGNED
+    return Rewards(
+        nearness=weights.nearness * math.exp(-metrics.distance / (0.5 * own.distance)),
+        cone=weights.cone * math.exp(-wide * wide),
+        angle=weights.angle * math.exp(-turned * turned),
+        docked=weights.docked * now.memory.contact.docked,
+        struck=-(weights.struck * now.memory.contact.struck),
+        effort=effort(weights.effort, now),
+    )
+
+
+def terminated(own: Parameters, now: Situation) -> Any:
+    """Whether the vehicle is docked, has struck the dock, or is lost."""
+    met = now.memory.contact.docked + now.memory.contact.struck
+    return (met > 0.5) | (now.metrics.distance > LOST * own.distance)
+
+
+def succeeded(own: Parameters, now: Situation) -> Any:
+    """Whether the bow is in the throat: slow enough, within 15 degrees, and has struck nothing."""
+    return now.memory.contact.docked > 0.5
+
+
+def goal(own: Parameters, memory: Memory) -> Goal:
+    """Return the pose of the docked vehicle, for drawing."""
+    north, east, depth = memory.dock.north, memory.dock.east, heave_of(memory.dock)[0]
+    return goal_along((-own.to_bow * north, -own.to_bow * east, depth), (north, east, 0.0))
+
+
+define_task(
+    globals(),
+    id="dq_marine/Docking-v0",
+    summary="Bring the bow through a funnel into a dock that heaves, slowly enough, in an unseen current.",
+    draws=START_DRAWS,
+    units={"distance": "m", "cross_error": "m", "angle_error": "rad", "impact_speed": "m/s"},
+    levels={
+        "easy": {"heave": 0.0, "angle": 20.0, "current": 0.0},
+        "medium": {"current": 0.2},
+        "hard": {"heave": 2.0, "angle": 60.0, "current": 0.3, "randomise": "default", "sensors": "auv"},
+    },
+    unsuitable=unable_to_dive_under_way,
+    control_period=paced,
+    max_episode_steps=900,
+)
