@@ -23,7 +23,10 @@ Array = NDArray[np.float64]
 
 STANDOFF = 2.5  # where vehicles wait for their turn before the dock [lengths]
 WAITING = 0.5  # a vehicle this near to where it should wait goes on [lengths]
-CLEAR = (0.5, 0.1)  # off the axis by no more than a share of the throat's radius and of the distance that is left
+CLEAR = (
+    0.5,
+    0.1,
+)  # off the axis by no more than a share of the throat's radius and of the distance that is left
 HASTE = 0.6  # speed of the approach, over the contact speed; of vehicles that cannot stop:
 HASTE_UNDER_WAY = 0.8
 BEYOND = 0.5  # how far beyond the throat a vehicle is led: it has to come through [lengths]
@@ -113,7 +116,7 @@ class FlyingIn:
 
     def __init__(self, env: MarineEnv) -> None:
         """Prepare for an environment's vehicle."""
-        settings = read_settings("autopilot", AutopilotSettings)
+        settings = read_settings("autopilot", AutopilotSettings).model_copy(update={"adaptation": 0.0})
         self._read = parts_reader(env, DockingController.READS)
         self._pilot = Autopilot(env.vehicle, env.control_period, env.scene.actuation, settings)
         self._guidance = LineOfSight(self._pilot, settings)

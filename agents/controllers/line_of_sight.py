@@ -29,7 +29,9 @@ class LineOfSight:
         """Forget the path before."""
         self._sights = None
 
-    def order(self, attitude: Attitude, speed: float, ahead_body: Array, bend_body: Array, off: Offset) -> Order:
+    def order(
+        self, attitude: Attitude, speed: float, ahead_body: Array, bend_body: Array, off: Offset
+    ) -> Order:
         """Return the order for a speed along a path [m/s].
 
         Args:

@@ -12,13 +12,9 @@ from dq_marine.algebra.selection import spread
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import bounded_vector, norm, subtract
 from dq_marine.checks import finite_number
-from dq_marine.envs.core.suitability import (
-    cruising_speed,
-    paced,
-    steers_only_under_way,
-    unable_to_dive_under_way,
-)
+from dq_marine.envs.core.suitability import cruising_speed, paced, steers_only_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
+from dq_marine.envs.kit import unable_to_dive_under_way as unsuitable
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.docks import Contact, Dock, Funnel, Limits, across, approach, contact, heave_of, later
@@ -27,7 +23,8 @@ from dq_marine.task.protocol import Situation, Start
 THROAT, LEAST_THROAT = 0.1, 0.1  # radius of the throat [lengths, but at least m]
 CONE, FLARE = 1.0, math.radians(20.0)  # length of the funnel [lengths], angle of its wall (1)
 ALIGNED = math.radians(15.0)  # of the bow with the dock
-SLOW, UNDER_WAY = 0.5, 1.2  # contact speed [share of the cruising speed]: of vehicles that stop, and that cannot
+# Contact speed of vehicles that can stop, and that cannot [share of the cruising speed].
+SLOW, UNDER_WAY = 0.5, 1.2
 SIDEWAYS = 0.5  # speed across in contact, as a share of that limit
 FARTHER = 3.0  # start vehicles that steer only under way, and from a narrower angle
 LEAST_DEPTH = 20.0  # of docks; ten lengths of long vehicles [m]
@@ -46,7 +43,7 @@ class Settings:
 
     distance: float = 8.0
     angle: float = 45.0
-    heave: float = 1.0
+    heave: float = 0.5
     heave_period: float = 8.0
     contact_speed: float | None = None
 
@@ -66,17 +63,9 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
 
 
 class Parameters(NamedTuple):
-    """The numbers of an episode.
+    """Distance [m], half the angle [rad] and speed [m/s] of starts; from the vehicle's origin to its bow [m].
 
-    Attributes:
-        distance: of starts from the dock [m].
-        angle: half of that in which they are, seen from the dock [rad].
-        speed: of starts [m/s].
-        to_bow: from the vehicle's origin to its bow [m].
-        funnel: the dock's shape.
-        dock: but for its course and phase.
-        limits: of contact.
-        period: control period [s].
+    The funnel; the dock, but for its course and phase; limits of contact; control period [s].
     """
 
     distance: float
@@ -120,14 +109,14 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
     vehicle, length = context.vehicle, context.vehicle.dimensions.length
     farther, narrower = (FARTHER, 1.0 / FARTHER) if steers_only_under_way(vehicle) else (1.0, 1.0)
-    throat = max(LEAST_THROAT, THROAT * length)
+    throat, depth = max(LEAST_THROAT, THROAT * length), max(LEAST_DEPTH, 10.0 * length)
     return Parameters(
         farther * length * settings.distance,
         narrower * math.radians(settings.angle),
         cruising_speed(vehicle) if steers_only_under_way(vehicle) else 0.0,
         0.5 * length,
         Funnel(throat, CONE * length, math.tan(FLARE)),
-        Dock(1.0, 0.0, max(LEAST_DEPTH, 10.0 * length), throat * settings.heave, 0.0, math.tau / settings.heave_period),
+        Dock(1.0, 0.0, depth, throat * settings.heave, 0.0, math.tau / settings.heave_period),
         Limits(settings.contact_speed, SIDEWAYS * settings.contact_speed, ALIGNED),
         context.control_period,
     )
@@ -167,7 +156,9 @@ def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
     north, east, attitude = memory.dock.north, memory.dock.east, measured.attitude
     docked = (-own.to_bow * north, -own.to_bow * east, depth)
     return (
-        bounded_vector(rotate_inverse(attitude, subtract(docked, measured.position_ned)), 2.0 * LOST * own.distance),
+        bounded_vector(
+            rotate_inverse(attitude, subtract(docked, measured.position_ned)), 2.0 * LOST * own.distance
+        ),
         rotate_inverse(attitude, (north, east, 0.0)),
         rotate_inverse(attitude, (-east, north, 0.0)),
         observed_velocity(measured),
@@ -245,7 +236,6 @@ define_task(
         "medium": {"current": 0.2},
         "hard": {"heave": 2.0, "angle": 60.0, "current": 0.3, "randomise": "default", "sensors": "auv"},
     },
-    unsuitable=unable_to_dive_under_way,
     control_period=paced,
     max_episode_steps=900,
 )

@@ -1,4 +1,4 @@
-"""Docking: who comes in straight and slowly is docked, who comes otherwise has struck the dock; and the baseline docks."""
+"""Docking: who comes in straight and slowly is docked, who comes otherwise strikes the dock; the baseline docks."""
 
 import math
 
@@ -114,14 +114,15 @@ def test_the_baseline_docks_in_a_current(vehicle):
     for seed in range(4):
         episode = fly_episode(env, controller, seed=seed)
         assert episode.success, f"seed {seed}"
-        assert 0.0 < episode.measured["impact_speed"][-1]
+        assert episode.measured["impact_speed"][-1] > 0.0
 
 
-def test_who_does_not_wait_before_the_mouth_strikes_the_dock():
-    """The task is not done by going to the goal."""
-    env = gym.make(ID, level="medium")
-    docked = [fly_episode(env, DPController.for_env(env), seed=seed).success for seed in range(6)]
-    assert not any(docked)
+def test_who_goes_straight_for_the_goal_often_strikes_the_dock():
+    """From beside the mouth the straight way leads through the wall; the baseline comes round to the axis."""
+    env = gym.make(ID, angle=80.0)
+    straight, baseline = DPController.for_env(env), controller_for(env)
+    assert sum(fly_episode(env, straight, seed=seed).success for seed in range(12)) <= 8
+    assert all(fly_episode(env, baseline, seed=seed).success for seed in range(12))
 
 
 @pytest.mark.parametrize(
