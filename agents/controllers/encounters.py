@@ -13,7 +13,7 @@ from dq_marine.agents.controllers.autopilot import YAW, Autopilot, Order, seen
 from dq_marine.agents.controllers.guidance import wrapped
 from dq_marine.agents.controllers.journeys import MOTION
 from dq_marine.agents.controllers.reading import parts_reader
-from dq_marine.agents.controllers.velocity_obstacles import CourseChoice, Others, Own, sight
+from dq_marine.agents.controllers.velocity_obstacles import ON_ROUTE, CourseChoice, Others, Own, sight
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import AutopilotSettings
@@ -51,6 +51,8 @@ class EncounterController:
         length, period = self._pilot.length, inner.control_period
         self._periods = max(1, round(BETWEEN_CHOICES * length / self._speed / period))
         self._fastest = length / self._pilot.turning_radius(self._speed)
+        # In lengths and in times of a length; that of three quarters of the speed stands for all of them.
+        self._braking = max(0.0, self._pilot.braking(0.75 * self._speed) * length / self._speed**2)
         self.reset()
 
     @classmethod
@@ -62,7 +64,7 @@ class EncounterController:
         """Forget the episode before."""
         self._pilot.reset()
         self._choice.reset()
-        self._course: float | None = None
+        self._chosen = ON_ROUTE
         self._until_choice = 0
 
     def act(self, observation: Observation) -> Action:
@@ -74,13 +76,14 @@ class EncounterController:
         starboard = float(parts["starboard_of_route"][0]) / length
         if self._until_choice == 0:
             turning = float(attitude.velocity_body[YAW]) * length / self._speed
-            own = Own(course, turning, self._fastest, starboard)
-            self._course = self._choice.choose(own, self._others(parts, attitude.velocity_level, route))
+            pace = attitude.speed / self._speed
+            own = Own(course, pace, turning, self._fastest, self._braking, starboard)
+            self._chosen = self._choice.choose(own, self._others(parts, attitude.velocity_level, route))
             self._until_choice = self._periods
         self._until_choice -= 1
-        wanted = sight(starboard) if self._course is None else self._course
-        error = self._speed - attitude.speed
-        return self._pilot.act(attitude, Order(self._speed, error, wrapped(wanted - course), 0.0, 0.0))
+        wanted = sight(starboard) if self._chosen.course is None else self._chosen.course
+        speed = self._chosen.speed * self._speed
+        return self._pilot.act(attitude, Order(speed, speed - attitude.speed, wrapped(wanted - course), 0.0, 0.0))
 
     def _others(self, parts: dict[str, Array], velocity: tuple[float, float, float], route: float) -> Others:
         """Return the vessels that there are, along the route and to starboard of it."""

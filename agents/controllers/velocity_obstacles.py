@@ -24,6 +24,9 @@ HORIZON, STEP = 45.0, 0.5
 WIDEST, APART = math.radians(100.0), math.radians(5.0)
 """Courses that are tried: up to this on both sides of the route, and apart by this [rad]."""
 
+SPEEDS = (1.0, 0.5)
+"""Speeds that are tried, over that of the route, by a vessel that can slow down."""
+
 LAG = 1.0
 """Way before a vessel that goes straight begins to turn [own lengths]."""
 
@@ -39,6 +42,9 @@ STAND_ON = 15.0
 ON_TOO_NEAR, ON_NEAR, ON_WRONG_SIDE, ON_DEVIATION, ON_PORT, ON_CHANGE = 1000.0, 30.0, 60.0, 10.0, 1.5, 4.0
 """Costs: of the share of both distances that is lacking; of a side; of courses off the route [1/rad], times this to port; and
 of another course than before [1/rad]."""
+
+ON_SLOWNESS, ON_SPEED_CHANGE = 16.0, 4.0
+"""Costs of the speed that is lacking, and of another one than before, over that of the route."""
 
 
 class Others(NamedTuple):
@@ -58,19 +64,33 @@ class Others(NamedTuple):
 
 
 class Own(NamedTuple):
-    """One's own vessel: course from that of the route [rad], turn rate and largest one [rad per length], cross-track error.
+    """One's own vessel, in lengths and in the time of a length at the speed of the route.
 
     Attributes:
-        course: over ground, from that of the route, to starboard.
-        turning: rate of now.
-        fastest: rate of a hard turn.
-        starboard: of the route [lengths].
+        course: over ground, from that of the route, to starboard [rad].
+        speed: over that of the route.
+        turning: turn rate of now [rad per length gone].
+        fastest: turn rate of a hard turn [rad per length gone].
+        braking: how fast the speed can be changed; 0 for a vessel that cannot slow down.
+        starboard: cross-track error [lengths].
     """
 
     course: float
+    speed: float
     turning: float
     fastest: float
+    braking: float
     starboard: float
+
+
+class Choice(NamedTuple):
+    """What to do from now on: a course from that of the route [rad], None for back to it and along it; and a speed."""
+
+    course: float | None
+    speed: float
+
+
+ON_ROUTE = Choice(None, 1.0)
 
 
 def sight(starboard: float) -> float:
@@ -79,51 +99,57 @@ def sight(starboard: float) -> float:
 
 
 class CourseChoice:
-    """Chooses courses, one after the other."""
+    """Chooses courses and speeds, one after the other."""
 
     def __init__(self) -> None:
         """Prepare the courses that are tried."""
         count = round(WIDEST / APART)
         self._courses = APART * np.arange(-count, count + 1)
         self._times = STEP * np.arange(1, round(HORIZON / STEP) + 1)
-        self._chosen: float | None = None
+        self._before = ON_ROUTE
 
     def reset(self) -> None:
         """Forget what was chosen."""
-        self._chosen = None
+        self._before = ON_ROUTE
 
-    def choose(self, own: Own, others: Others) -> float | None:
-        """Return the course to take from now on [rad], from that of the route; None for back to the route and along it."""
-        home = sight(own.starboard)
+    def choose(self, own: Own, others: Others) -> Choice:
+        """Return the course and the speed of least cost."""
+        home, speeds = sight(own.starboard), SPEEDS if own.braking > 0.0 else SPEEDS[:1]
         commands = np.concatenate([[home], self._courses])
-        before = home if self._chosen is None else self._chosen
+        before = home if self._before.course is None else self._before.course
         off = commands - home
-        cost = ON_DEVIATION * np.where(off < 0.0, -ON_PORT * off, off)
-        cost += ON_CHANGE * np.abs(commands - before)
+        of_courses = ON_DEVIATION * np.where(off < 0.0, -ON_PORT * off, off) + ON_CHANGE * np.abs(commands - before)
+        costs = np.array([of_courses + self._cost_of_speed(speed) for speed in speeds])
         if len(others.places):
-            cost += self._risk(own, others)
-        best = int(np.argmin(cost))
-        self._chosen = None if best == 0 else float(commands[best])
-        return self._chosen
+            costs += np.array([self._risk(own, others, speed) for speed in speeds])
+        which, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
+        self._before = Choice(None if best == 0 else float(commands[best]), speeds[which])
+        return self._before
 
-    def _ways(self, own: Own) -> Array:
-        """Return courses over time, shape (1 + courses, times): the first goes back to the route and along it."""
-        back = -np.arctan(own.starboard / LOOK_AHEAD * np.exp(-self._times / LOOK_AHEAD))
-        wanted = np.concatenate(
-            [back[None], np.broadcast_to(self._courses[:, None], (len(self._courses), len(back)))]
-        )
+    def _cost_of_speed(self, speed: float) -> float:
+        return ON_SLOWNESS * (1.0 - speed) + ON_SPEED_CHANGE * abs(speed - self._before.speed)
+
+    def _ways(self, own: Own, speed: float) -> tuple[Array, Array]:
+        """Return courses over time, shape (1 + courses, times), and speeds, shape (times,).
+
+        The first course goes back to the route and along it.
+        """
+        speeds = own.speed + np.clip(speed - own.speed, -own.braking * self._times, own.braking * self._times)
+        gone = STEP * np.cumsum(speeds)
+        back = -np.arctan(own.starboard / LOOK_AHEAD * np.exp(-gone / LOOK_AHEAD))
+        wanted = np.vstack([back, np.broadcast_to(self._courses[:, None], (len(self._courses), len(back)))])
         turn = wanted - own.course
         begun = np.clip(np.sign(turn) * own.turning / own.fastest, 0.0, 1.0)
-        reach = own.fastest * np.maximum(0.0, self._times - LAG * (1.0 - begun))
-        return own.course + np.clip(turn, -reach, reach)
+        reach = own.fastest * np.maximum(0.0, gone - LAG * (1.0 - begun))
+        return own.course + np.clip(turn, -reach, reach), speeds
 
-    def _risk(self, own: Own, others: Others) -> Array:
-        """Return the cost of coming near to others and of wrong sides, of each course."""
-        ways = self._ways(own)
-        along, across = np.cos(ways), np.sin(ways)
+    def _risk(self, own: Own, others: Others, speed: float) -> Array:
+        """Return the cost of coming near to others and of wrong sides, of each course at a speed, shape (1 + courses,)."""
+        ways, speeds = self._ways(own, speed)
+        ahead, across = speeds * np.cos(ways), speeds * np.sin(ways)
         x = others.places[:, 0, None] + others.velocities[:, 0, None] * self._times
         y = others.places[:, 1, None] + others.velocities[:, 1, None] * self._times
-        dx = x[None] - STEP * np.cumsum(along, axis=1)[:, None]
+        dx = x[None] - STEP * np.cumsum(ahead, axis=1)[:, None]
         dy = y[None] - STEP * np.cumsum(across, axis=1)[:, None]
         squares = dx * dx + dy * dy
         when = np.argmin(squares, axis=2)
@@ -132,11 +158,11 @@ class CourseChoice:
             return np.take_along_axis(values, when[..., None], axis=2)[..., 0]
 
         distance, time = np.sqrt(there(squares)), self._times[when]
-        sideways_x = others.velocities[:, 0] - np.take_along_axis(along, when, axis=1)
+        sideways_x = others.velocities[:, 0] - np.take_along_axis(ahead, when, axis=1)
         sideways_y = others.velocities[:, 1] - np.take_along_axis(across, when, axis=1)
         turning = there(dx) * sideways_y - there(dy) * sideways_x
         near = ON_NEAR * np.maximum(0.0, 1.0 - distance / NEAR)
         near += ON_TOO_NEAR * np.maximum(0.0, 1.0 - distance / TOO_NEAR)
         near = np.where(others.give_way | (time < STAND_ON), near, 0.0)
         wrong = others.to_port & (turning > 0.0) & (when > 0)
-        return (near + np.where(wrong, ON_WRONG_SIDE, 0.0)).sum(axis=1)
+        return np.asarray((near + np.where(wrong, ON_WRONG_SIDE, 0.0)).sum(axis=1))
