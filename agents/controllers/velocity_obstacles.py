@@ -21,8 +21,11 @@ Array = NDArray[np.float64]
 HORIZON, STEP = 45.0, 0.5
 """How far ahead ways are compared, and in what steps [own lengths gone]."""
 
-WIDEST, APART = math.radians(100.0), math.radians(5.0)
-"""Courses that are tried: up to this on both sides of the route, and apart by this [rad]."""
+LEAST, WIDEST, APART = math.radians(20.0), math.radians(100.0), math.radians(5.0)
+"""Courses that are tried, besides those of the route: from this to this on both sides of it, and apart by this [rad].
+
+Rule 8: an alteration of course shall be large enough to be readily apparent, not a succession of small ones.
+"""
 
 SPEEDS = (1.0, 0.5)
 """Speeds that are tried, over that of the route, by a vessel that can slow down."""
@@ -35,6 +38,9 @@ LOOK_AHEAD = 5.0
 
 TOO_NEAR, NEAR = 2.2, 4.0
 """Distances to others that are avoided at any cost, and where possible [own lengths]."""
+
+LASTING = 30.0
+"""Courses off the route cost by the time until all others are past, over this [own lengths gone]."""
 
 STAND_ON = 15.0
 """Rule 17: how long before it would be nearest one acts for a vessel that has to give way, and does not [own lengths gone]."""
@@ -103,8 +109,8 @@ class CourseChoice:
 
     def __init__(self) -> None:
         """Prepare the courses that are tried."""
-        count = round(WIDEST / APART)
-        self._courses = APART * np.arange(-count, count + 1)
+        aside = np.arange(LEAST, WIDEST + 0.5 * APART, APART)
+        self._courses = np.concatenate([[0.0], aside, -aside])
         self._times = STEP * np.arange(1, round(HORIZON / STEP) + 1)
         self._before = ON_ROUTE
 
@@ -118,16 +124,16 @@ class CourseChoice:
         commands = np.concatenate([[home], self._courses])
         before = home if self._before.course is None else self._before.course
         off = commands - home
-        of_courses = ON_DEVIATION * np.where(off < 0.0, -ON_PORT * off, off) + ON_CHANGE * np.abs(commands - before)
-        costs = np.array([of_courses + self._cost_of_speed(speed) for speed in speeds])
-        if len(others.places):
-            costs += np.array([self._risk(own, others, speed) for speed in speeds])
+        of_courses = ON_DEVIATION * np.where(off < 0.0, -ON_PORT * off, off)
+        of_changes = ON_CHANGE * np.abs(commands - before)
+        costs = np.zeros((len(speeds), len(commands)))
+        for row, speed in zip(costs, speeds, strict=True):
+            risk, lasting = self._risk(own, others, speed)
+            row += risk + lasting * (of_courses + ON_SLOWNESS * (1.0 - speed))
+            row += of_changes + ON_SPEED_CHANGE * abs(speed - self._before.speed)
         which, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
         self._before = Choice(None if best == 0 else float(commands[best]), speeds[which])
         return self._before
-
-    def _cost_of_speed(self, speed: float) -> float:
-        return ON_SLOWNESS * (1.0 - speed) + ON_SPEED_CHANGE * abs(speed - self._before.speed)
 
     def _ways(self, own: Own, speed: float) -> tuple[Array, Array]:
         """Return courses over time, shape (1 + courses, times), and speeds, shape (times,).
@@ -143,8 +149,13 @@ class CourseChoice:
         reach = own.fastest * np.maximum(0.0, gone - LAG * (1.0 - begun))
         return own.course + np.clip(turn, -reach, reach), speeds
 
-    def _risk(self, own: Own, others: Others, speed: float) -> Array:
-        """Return the cost of coming near to others and of wrong sides, of each course at a speed, shape (1 + courses,)."""
+    def _risk(self, own: Own, others: Others, speed: float) -> tuple[Array, Array]:
+        """Return the cost of coming near to others and of wrong sides, and how long the last is met, over `LASTING`.
+
+        Both are of each course at a speed, shape (1 + courses,).
+        """
+        if not len(others.places):
+            return np.zeros(1 + len(self._courses)), np.ones(1 + len(self._courses))
         ways, speeds = self._ways(own, speed)
         ahead, across = speeds * np.cos(ways), speeds * np.sin(ways)
         x = others.places[:, 0, None] + others.velocities[:, 0, None] * self._times
@@ -165,4 +176,5 @@ class CourseChoice:
         near += ON_TOO_NEAR * np.maximum(0.0, 1.0 - distance / TOO_NEAR)
         near = np.where(others.give_way | (time < STAND_ON), near, 0.0)
         wrong = others.to_port & (turning > 0.0) & (when > 0)
-        return np.asarray((near + np.where(wrong, ON_WRONG_SIDE, 0.0)).sum(axis=1))
+        risk = (near + np.where(wrong, ON_WRONG_SIDE, 0.0)).sum(axis=1)
+        return risk, 0.5 + time.max(axis=1) / LASTING
