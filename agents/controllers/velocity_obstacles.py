@@ -39,8 +39,11 @@ LOOK_AHEAD = 5.0
 TOO_NEAR, NEAR = 2.2, 4.0
 """Distances to others that are avoided at any cost, and where possible [own lengths]."""
 
-LASTING = 30.0
-"""Courses off the route cost by the time until all others are past, over this [own lengths gone]."""
+LASTING = 15.0
+"""Courses off the route cost by the time until the way back is free, over this [own lengths gone]."""
+
+CLEAR, BACK = 3.0, 10.0
+"""Distance at which the way back is free, and how long it takes [own lengths, own lengths gone]."""
 
 STAND_ON = 15.0
 """Rule 17: how long before it would be nearest one acts for a vessel that has to give way, and does not [own lengths gone]."""
@@ -129,8 +132,9 @@ class CourseChoice:
         costs = np.zeros((len(speeds), len(commands)))
         for row, speed in zip(costs, speeds, strict=True):
             risk, lasting = self._risk(own, others, speed)
-            row += risk + lasting * (of_courses + ON_SLOWNESS * (1.0 - speed))
+            row += risk + (0.2 + lasting) * (of_courses + ON_SLOWNESS * (1.0 - speed))
             row += of_changes + ON_SPEED_CHANGE * abs(speed - self._before.speed)
+        costs[0, 0] -= of_changes[0] + ON_SPEED_CHANGE * abs(1.0 - self._before.speed)  # home is free whenever it is
         which, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
         self._before = Choice(None if best == 0 else float(commands[best]), speeds[which])
         return self._before
@@ -150,31 +154,54 @@ class CourseChoice:
         return own.course + np.clip(turn, -reach, reach), speeds
 
     def _risk(self, own: Own, others: Others, speed: float) -> tuple[Array, Array]:
-        """Return the cost of coming near to others and of wrong sides, and how long the last is met, over `LASTING`.
+        """Return the cost of coming near to others and of wrong sides, and how long a course is held, over `LASTING`.
 
-        Both are of each course at a speed, shape (1 + courses,).
+        Both are of each course at a speed, shape (1 + courses,). A course is held until the way back to the route is free.
         """
+        count = 1 + len(self._courses)
         if not len(others.places):
-            return np.zeros(1 + len(self._courses)), np.ones(1 + len(self._courses))
+            return np.zeros(count), np.zeros(count)
         ways, speeds = self._ways(own, speed)
-        ahead, across = speeds * np.cos(ways), speeds * np.sin(ways)
-        x = others.places[:, 0, None] + others.velocities[:, 0, None] * self._times
-        y = others.places[:, 1, None] + others.velocities[:, 1, None] * self._times
-        dx = x[None] - STEP * np.cumsum(ahead, axis=1)[:, None]
-        dy = y[None] - STEP * np.cumsum(across, axis=1)[:, None]
-        squares = dx * dx + dy * dy
+        velocity = np.stack([speeds * np.cos(ways), speeds * np.sin(ways)], axis=-1)[:, None]
+        gone = STEP * np.cumsum(velocity, axis=2)
+        theirs = others.velocities[None, :, None]
+        offset = others.places[None, :, None] + theirs * self._times[:, None] - gone
+        free = self._free(own.starboard + gone[..., 1], offset, theirs, others.to_port)
+        until = np.where(free.any(axis=1), np.argmax(free, axis=1), len(self._times) - 1)
+        lasting = self._times[until] / LASTING
+        if speed == 1.0:
+            until[0] = len(self._times) - 1
+        squares = np.sum(offset * offset, axis=-1)
+        squares[np.broadcast_to((np.arange(len(self._times)) > until[:, None])[:, None], squares.shape)] = np.inf
         when = np.argmin(squares, axis=2)
-
-        def there(values: Array) -> Array:
-            return np.take_along_axis(values, when[..., None], axis=2)[..., 0]
-
-        distance, time = np.sqrt(there(squares)), self._times[when]
-        sideways_x = others.velocities[:, 0] - np.take_along_axis(ahead, when, axis=1)
-        sideways_y = others.velocities[:, 1] - np.take_along_axis(across, when, axis=1)
-        turning = there(dx) * sideways_y - there(dy) * sideways_x
+        at = when[..., None]
+        distance, time = np.sqrt(np.take_along_axis(squares, at, axis=2)[..., 0]), self._times[when]
+        sight_turns = np.take_along_axis(_cross(offset, theirs - velocity), at, axis=2)[..., 0]
         near = ON_NEAR * np.maximum(0.0, 1.0 - distance / NEAR)
         near += ON_TOO_NEAR * np.maximum(0.0, 1.0 - distance / TOO_NEAR)
         near = np.where(others.give_way | (time < STAND_ON), near, 0.0)
-        wrong = others.to_port & (turning > 0.0) & (when > 0)
-        risk = (near + np.where(wrong, ON_WRONG_SIDE, 0.0)).sum(axis=1)
-        return risk, 0.5 + time.max(axis=1) / LASTING
+        wrong = others.to_port & (sight_turns > 0.0) & (when > 0) & (when < until[:, None])
+        return (near + np.where(wrong, ON_WRONG_SIDE, 0.0)).sum(axis=1), lasting
+
+    def _free(self, starboard: Array, offset: Array, theirs: Array, to_port: NDArray[np.bool_]) -> Array:
+        """Return where the way back to the route, and then along it, is free of all others, shape (courses, times)."""
+        back = -np.arctan(starboard / LOOK_AHEAD)
+        home = theirs - np.stack([np.cos(back), np.sin(back)], axis=-1)
+        along = theirs - np.array([1.0, 0.0])
+        # Where the line of sight has led back to the route, some time later.
+        later = offset + BACK * along + np.stack([np.zeros_like(starboard), starboard], axis=-1)
+        return (_clear(offset, home, to_port) & _clear(later, along, to_port)).all(axis=1)
+
+
+def _cross(a: Array, b: Array) -> Array:
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def _clear(offset: Array, velocity: Array, to_port: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return whether vessels that keep their velocities pass well clear, and on the right side, or are past."""
+    closing = -np.sum(offset * velocity, axis=-1)
+    squared = np.sum(velocity * velocity, axis=-1)
+    turning = _cross(offset, velocity)
+    passing = (np.abs(turning) > CLEAR * np.sqrt(squared)) & ~(to_port[:, None] & (turning > 0.0))
+    past = (closing <= 0.0) & (np.sum(offset * offset, axis=-1) > CLEAR**2)
+    return np.asarray(past | ((closing > 0.0) & passing))
