@@ -166,7 +166,7 @@ class Autopilot:
         return self._mass * speed**2 / (2.0 * float(self._limits[SURGE]))
 
     def braking(self, speed: float) -> float:
-        """Return how fast full thrust astern and drag slow the vehicle down at a speed [m/s^2]; less than 0 if not at all.
+        """Return how fast full thrust astern and drag slow the vehicle down at a speed [m/s^2]; 0 or less: not at all.
 
         There is such a vehicle: a model about a service speed, with the propeller in it, which goes on at a lower one.
         """

@@ -83,7 +83,9 @@ class EncounterController:
         self._until_choice -= 1
         wanted = sight(starboard) if self._chosen.course is None else self._chosen.course
         speed = self._chosen.speed * self._speed
-        return self._pilot.act(attitude, Order(speed, speed - attitude.speed, wrapped(wanted - course), 0.0, 0.0))
+        return self._pilot.act(
+            attitude, Order(speed, speed - attitude.speed, wrapped(wanted - course), 0.0, 0.0)
+        )
 
     def _others(self, parts: dict[str, Array], velocity: tuple[float, float, float], route: float) -> Others:
         """Return the vessels that there are, along the route and to starboard of it."""

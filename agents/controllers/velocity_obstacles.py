@@ -1,11 +1,12 @@
 """Which course to take among vessels that keep theirs: by velocity obstacles, with the sides that the rules ask for.
 
-A course is in a velocity obstacle if one's own vessel, going that way, comes too near to another (Fiorini and Shiller 1998,
-Motion planning in dynamic environments using velocity obstacles). Kuwata et al. (2014, Safe maritime autonomous navigation
-with COLREGS, using velocity obstacles, IEEE J. Oceanic Eng. 39(1)) add a set for each vessel that one has to give way to: the
-courses that pass it on the wrong side; and they take the course of least cost. A ship needs several lengths to turn, so
-that it has not the velocity of a course at once: the way to it is an arc, as in the generalised velocity obstacles of Wilkie,
-van den Berg and Manocha (2009). All is in units of one's own length and of the time in which that is gone.
+A course is in a velocity obstacle if one's own vessel, going that way, comes too near to another (Fiorini and
+Shiller 1998, Motion planning in dynamic environments using velocity obstacles). Kuwata et al. (2014, Safe maritime
+autonomous navigation with COLREGS, using velocity obstacles, IEEE J. Oceanic Eng. 39(1)) add a set for each vessel
+that one has to give way to: the courses that pass it on the wrong side; and they take the course of least cost. A
+ship needs several lengths to turn, so that it has not the velocity of a course at once: the way to it is an arc, as
+in the generalised velocity obstacles of Wilkie, van den Berg and Manocha (2009). All is in units of one's own
+length and of the time in which that is gone.
 """
 
 from __future__ import annotations
@@ -46,18 +47,18 @@ CLEAR, BACK = 3.0, 10.0
 """Distance at which the way back is free, and how long it takes [own lengths, own lengths gone]."""
 
 STAND_ON = 15.0
-"""Rule 17: how long before it would be nearest one acts for a vessel that has to give way, and does not [own lengths gone]."""
+"""Rule 17: how long before it is nearest one acts for a vessel that has to give way, and does not [lengths gone]."""
 
 ON_TOO_NEAR, ON_NEAR, ON_WRONG_SIDE, ON_DEVIATION, ON_PORT, ON_CHANGE = 1000.0, 30.0, 60.0, 10.0, 1.5, 4.0
-"""Costs: of the share of both distances that is lacking; of a side; of courses off the route [1/rad], times this to port; and
-of another course than before [1/rad]."""
+"""Costs: of the share of both distances that is lacking; of a side; of courses off the route [1/rad], times this to port;
+and of another course than before [1/rad]."""
 
 ON_SLOWNESS, ON_SPEED_CHANGE = 16.0, 4.0
 """Costs of the speed that is lacking, and of another one than before, over that of the route."""
 
 
 class Others(NamedTuple):
-    """Other vessels: places [lengths], velocities over one's own speed, both along the route and to starboard, and rules.
+    """Other vessels: places [lengths] and velocities over one's own speed, along the route and to starboard, and rules.
 
     Attributes:
         places: from one's own, shape (k, 2).
@@ -134,7 +135,9 @@ class CourseChoice:
             risk, lasting = self._risk(own, others, speed)
             row += risk + (0.2 + lasting) * (of_courses + ON_SLOWNESS * (1.0 - speed))
             row += of_changes + ON_SPEED_CHANGE * abs(speed - self._before.speed)
-        costs[0, 0] -= of_changes[0] + ON_SPEED_CHANGE * abs(1.0 - self._before.speed)  # home is free whenever it is
+        costs[0, 0] -= of_changes[0] + ON_SPEED_CHANGE * abs(
+            1.0 - self._before.speed
+        )  # home is free whenever it is
         which, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
         self._before = Choice(None if best == 0 else float(commands[best]), speeds[which])
         return self._before
@@ -154,7 +157,7 @@ class CourseChoice:
         return own.course + np.clip(turn, -reach, reach), speeds
 
     def _risk(self, own: Own, others: Others, speed: float) -> tuple[Array, Array]:
-        """Return the cost of coming near to others and of wrong sides, and how long a course is held, over `LASTING`.
+        """Return the cost of coming near to others and of wrong sides, and how long courses are held, over `LASTING`.
 
         Both are of each course at a speed, shape (1 + courses,). A course is held until the way back to the route is free.
         """
@@ -172,7 +175,9 @@ class CourseChoice:
         if speed == 1.0:
             until[0] = len(self._times) - 1
         squares = np.sum(offset * offset, axis=-1)
-        squares[np.broadcast_to((np.arange(len(self._times)) > until[:, None])[:, None], squares.shape)] = np.inf
+        squares[np.broadcast_to((np.arange(len(self._times)) > until[:, None])[:, None], squares.shape)] = (
+            np.inf
+        )
         when = np.argmin(squares, axis=2)
         at = when[..., None]
         distance, time = np.sqrt(np.take_along_axis(squares, at, axis=2)[..., 0]), self._times[when]
@@ -181,16 +186,20 @@ class CourseChoice:
         near += ON_TOO_NEAR * np.maximum(0.0, 1.0 - distance / TOO_NEAR)
         near = np.where(others.give_way | (time < STAND_ON), near, 0.0)
         wrong = others.to_port & (sight_turns > 0.0) & (when > 0) & (when < until[:, None])
-        return (near + np.where(wrong, ON_WRONG_SIDE, 0.0)).sum(axis=1), lasting
+        risk: Array = (near + np.where(wrong, ON_WRONG_SIDE, 0.0)).sum(axis=1)
+        return risk, np.asarray(lasting)
 
-    def _free(self, starboard: Array, offset: Array, theirs: Array, to_port: NDArray[np.bool_]) -> Array:
+    def _free(
+        self, starboard: Array, offset: Array, theirs: Array, to_port: NDArray[np.bool_]
+    ) -> NDArray[np.bool_]:
         """Return where the way back to the route, and then along it, is free of all others, shape (courses, times)."""
         back = -np.arctan(starboard / LOOK_AHEAD)
         home = theirs - np.stack([np.cos(back), np.sin(back)], axis=-1)
         along = theirs - np.array([1.0, 0.0])
         # Where the line of sight has led back to the route, some time later.
         later = offset + BACK * along + np.stack([np.zeros_like(starboard), starboard], axis=-1)
-        return (_clear(offset, home, to_port) & _clear(later, along, to_port)).all(axis=1)
+        free: NDArray[np.bool_] = (_clear(offset, home, to_port) & _clear(later, along, to_port)).all(axis=1)
+        return free
 
 
 def _cross(a: Array, b: Array) -> Array:

@@ -1,8 +1,8 @@
 """Two vessels that meet, seen from above: how near they come, and who gives way by the rules of the road at sea.
 
-The rules are those of the Convention on the International Regulations for Preventing Collisions at Sea (COLREG, IMO 1972),
-part B, for power-driven vessels in sight of one another. Level vectors are pairs (north, east), or any other axes that are
-turned by 90 degrees clockwise from the first to the second.
+The rules are those of the Convention on the International Regulations for Preventing Collisions at Sea (COLREG, IMO
+1972), part B, for power-driven vessels in sight of one another. Level vectors are pairs (north, east), or any other
+axes that are turned by 90 degrees clockwise from the first to the second.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from dq_marine.algebra.selection import select, smallest_normal
 Level: TypeAlias = tuple[float, float]
 
 ABAFT = math.radians(112.5)
-"""Rule 13: whoever comes up from more than 22.5 degrees abaft the beam overtakes; sternlights are seen from there [rad]."""
+"""Rule 13: who comes up from more than 22.5 degrees abaft the beam overtakes; sternlights are seen from there [rad]."""
 
 AHEAD = math.radians(10.0)
-"""Rule 14: nearly ahead, in which each of two sees the other where they meet head-on [rad]; the rule gives no number."""
+"""Rule 14: nearly ahead, where each of two sees the other when they meet head-on [rad]; the rule gives no number."""
 
 NO_RULE, HEAD_ON, GIVE_WAY, STAND_ON, OVERTAKING, OVERTAKEN = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
-"""What one vessel is to another: nothing; head-on; crossing with the other to starboard, or to port; overtaking; overtaken."""
+"""What one is to another: nothing; head-on; crossing with the other to starboard, or to port; overtaking; overtaken."""
 
 LATEST = 1e9
 """Bound of the time to the closest point of approach, of vessels that hardly move past each other [s]."""
@@ -53,7 +53,7 @@ def level_length(a: Level) -> float:
 
 
 def seen_at(course: Level, offset: Level) -> float:
-    """Return the bearing [rad] of a place from the bow of a vessel: 0 ahead, pi/2 on the starboard beam, within -pi and pi.
+    """Return the bearing of a place from the bow [rad]: 0 ahead, pi/2 on the starboard beam, within -pi and pi.
 
     Args:
         course: where the vessel heads, of any length.
@@ -77,7 +77,7 @@ def closest_approach(offset: Level, velocity: Level) -> Nearest:
 
 
 def sight_turns(offset: Level, velocity: Level) -> float:
-    """Return what is positive while the line of sight to another vessel turns to starboard: its rate times distance squared.
+    """Return the rate of the line of sight to another vessel times distance squared: positive to starboard.
 
     Two that pass port to port, and a vessel that is let pass ahead from starboard, have it negative.
     """

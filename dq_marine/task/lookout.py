@@ -31,7 +31,7 @@ VESSEL_SPEED_BOUND = 2.0 * SPEED_BOUND
 
 
 class Lookout(NamedTuple):
-    """Other vessels; the least distance to each so far [m], and how the line of sight turned there, see `sight_turns`."""
+    """Other vessels; the least distance to each so far [m], and how the line of sight turned there (`sight_turns`)."""
 
     vessels: tuple[OtherVessel, OtherVessel, OtherVessel]
     least: tuple[float, float, float]
@@ -110,7 +110,7 @@ def level_bow(motion: Motion) -> Level:
 
 
 def along_route(course: Level, motion: Motion) -> Level:
-    """Return how far a vehicle is along a route from the origin, and to starboard of it [m]; `course` is a unit vector."""
+    """Return how far a vehicle is along a route from the origin and to starboard of it [m]; `course` is of length 1."""
     place = (motion.position_ned[0], motion.position_ned[1])
     return (level_dot(course, place), level_cross(course, place))
 

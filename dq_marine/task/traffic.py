@@ -1,11 +1,11 @@
 """Other vessels that keep course and speed: drawn so that they meet one's own, or given as a case.
 
-One's own vessel goes from the origin along its route at its speed. Another that is to be met at the time T has the start
+One's own vessel goes from the origin along its route at its speed. Another that is met at the time T starts at
 
     p = U T e - s U T d + m n,                                                                                  (1)
 
-with e one's own course, d its course, n starboard of that, s its speed over one's own, U, and m how far it misses. With m = 0
-both would be at one place at the time T, and until then each sees the other at one bearing.
+with e one's own course, d its course, n starboard of that, s its speed over one's own, U, and m how far it misses. With
+m = 0 both would be at one place at the time T, and until then each sees the other at one bearing.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ MEETINGS = (
     (0.0, 20.0, 0.4, 0.7),
     (0.0, 20.0, 1.4, 1.8),
 )
-"""Head-on, from starboard, from port, overtaken, overtaking: headings less one's own and their spread [degrees, clockwise],
-and the least and largest speed over one's own. All vessels that are drawn from a row meet by the same rule."""
+"""Head-on, from starboard, from port, overtaken, overtaking: headings less one's own and their spread [degrees,
+clockwise], and the least and largest speed over one's own. Vessels that are drawn from a row meet by the same rule."""
 
 DEGREE = math.pi / 180.0
 
@@ -66,7 +66,7 @@ class OtherVessel(NamedTuple):
 
 
 class Own(NamedTuple):
-    """One's own vessel as meetings are drawn: course as north and east, speed [m/s], length and way to the meeting [m]."""
+    """One's own vessel as meetings are drawn: course, speed [m/s], length and way to the meeting [m]."""
 
     course: Level
     speed: float

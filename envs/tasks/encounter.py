@@ -71,8 +71,7 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
 class Parameters(NamedTuple):
     """Speed [m/s], length, way to the meeting, depth, safe distance [m], control period [s], and whom to meet.
 
-    `vessels` is the most that are drawn; `case` has heading less one's own [rad], speed over one's own, and 1 or 0 for
-    present, of each slot of a case, and `from_case` 1 where there is one.
+    Those are `vessels`, the most that are drawn, or where `from_case` is 1, `case`; see `dq_marine.task.traffic`.
     """
 
     speed: float
@@ -87,10 +86,7 @@ class Parameters(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """The other vessels; the route's course as north and east; and where one's own is along and to starboard of it [m].
-
-    Also the way gained along it in the last period [m].
-    """
+    """Other vessels; the route's course; where one's own is along and to starboard of it, gained in the period [m]."""
 
     lookout: Lookout
     course: Level
@@ -100,10 +96,9 @@ class Memory(NamedTuple):
 
 
 class Metrics(NamedTuple):
-    """Least distance so far, that and the time of the closest approach that is next, distance to the goal, sides kept.
+    """Least distance so far [m], distance [m] and time [s] of the nearest approach to come, as vessels go now.
 
-    The next closest approach is the nearest of those of all vessels, at the course and speed of now. `sides_kept` is 1
-    unless a vessel has been passed on the side that the rules forbid.
+    Also the distance to the goal [m]; and 1 unless a vessel has been passed on the side that the rules forbid, then 0.
     """
 
     least_distance: float
@@ -128,8 +123,8 @@ class Rewards(NamedTuple):
 def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
     vehicle, length = context.vehicle, context.vehicle.dimensions.length
-    met_there = IMAZU_CASES[settings.case - 1] if settings.case else ()
-    slots = [(DEGREE * heading, ratio, 1.0) for heading, ratio in met_there]
+    case = IMAZU_CASES[settings.case - 1] if settings.case else ()
+    slots = [(DEGREE * heading, ratio, 1.0) for heading, ratio in case]
     return Parameters(
         cruising_speed(vehicle),
         length,
