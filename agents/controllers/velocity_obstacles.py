@@ -50,8 +50,8 @@ STAND_ON = 15.0
 """Rule 17: how long before it is nearest one acts for a vessel that has to give way, and does not [lengths gone]."""
 
 ON_TOO_NEAR, ON_NEAR, ON_WRONG_SIDE, ON_DEVIATION, ON_PORT, ON_CHANGE = 1000.0, 30.0, 60.0, 10.0, 1.5, 4.0
-"""Costs: of the share of both distances that is lacking; of a side; of courses off the route [1/rad], times this to port;
-and of another course than before [1/rad]."""
+"""Costs: of the share of both distances that is lacking; of a side; of courses off the route [1/rad], times this to
+port; and of another course than before [1/rad]."""
 
 ON_SLOWNESS, ON_SPEED_CHANGE = 16.0, 4.0
 """Costs of the speed that is lacking, and of another one than before, over that of the route."""
@@ -159,7 +159,7 @@ class CourseChoice:
     def _risk(self, own: Own, others: Others, speed: float) -> tuple[Array, Array]:
         """Return the cost of coming near to others and of wrong sides, and how long courses are held, over `LASTING`.
 
-        Both are of each course at a speed, shape (1 + courses,). A course is held until the way back to the route is free.
+        Both are of each course at a speed, shape (1 + courses,). A course is held until the way back is free.
         """
         count = 1 + len(self._courses)
         if not len(others.places):
@@ -198,8 +198,9 @@ class CourseChoice:
         along = theirs - np.array([1.0, 0.0])
         # Where the line of sight has led back to the route, some time later.
         later = offset + BACK * along + np.stack([np.zeros_like(starboard), starboard], axis=-1)
-        free: NDArray[np.bool_] = (_clear(offset, home, to_port) & _clear(later, along, to_port)).all(axis=1)
-        return free
+        return np.asarray(
+            (_clear(offset, home, to_port) & _clear(later, along, to_port)).all(axis=1), dtype=np.bool_
+        )
 
 
 def _cross(a: Array, b: Array) -> Array:
