@@ -40,6 +40,7 @@ from dq_marine.envs.core.suitability import (
     unable_to_hold_a_pose,
     unable_to_keep_up,
     unable_to_position,
+    unable_to_sail,
     unable_to_travel,
 )
 from dq_marine.integrator.body import Motion
@@ -115,6 +116,7 @@ __all__ = [
     "unable_to_hold_a_pose",
     "unable_to_keep_up",
     "unable_to_position",
+    "unable_to_sail",
     "unable_to_travel",
     "winding_draws",
 ]

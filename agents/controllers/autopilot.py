@@ -165,6 +165,13 @@ class Autopilot:
         """Return the way [m] that full thrust astern takes to stop the vehicle at a speed, were there no drag."""
         return self._mass * speed**2 / (2.0 * float(self._limits[SURGE]))
 
+    def braking(self, speed: float) -> float:
+        """Return how fast full thrust astern and drag slow the vehicle down at a speed [m/s^2]; 0 or less: not at all.
+
+        There is such a vehicle: a model about a service speed, with the propeller in it, which goes on at a lower one.
+        """
+        return (float(self._limits[SURGE]) + self._drag(speed)) / self._mass
+
     def reset(self) -> None:
         """Forget all integrals."""
         for loop in self._loops:

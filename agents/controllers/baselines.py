@@ -9,6 +9,7 @@ import numpy as np
 
 from dq_marine.agents.controllers.docking import DockingController
 from dq_marine.agents.controllers.dp_controller import DPController
+from dq_marine.agents.controllers.encounters import EncounterController
 from dq_marine.agents.controllers.journeys import DepthHeadingController, PathController, WaypointController
 from dq_marine.agents.controllers.reading import shown_names
 from dq_marine.agents.environments import marine
@@ -58,6 +59,7 @@ CONTROLLERS: tuple[type[Controller], ...] = (
     PathController,
     WaypointController,
     DepthHeadingController,
+    EncounterController,
 )
 """What "controller" may mean: the first of them that an environment shows enough to."""
 

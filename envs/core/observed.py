@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dq_marine.envs.core.definition import Observed
 from dq_marine.task.common import SPEED_BOUND
+from dq_marine.task.lookout import VESSEL_SPEED_BOUND
 
 VELOCITY = (
     Observed("linear_velocity_body", "m/s", 3, SPEED_BOUND, "surge, sway and heave over ground"),
@@ -17,3 +18,22 @@ GOAL_MOTION = (
     Observed("goal_acceleration_body", "m/s^2", 3, SPEED_BOUND, "its acceleration"),
 )
 """What `dq_marine.task.common.observed_curve_motion` gives."""
+
+
+def vessels_shown(count: int, far: float) -> tuple[Observed, ...]:
+    """Return what `dq_marine.task.lookout.shown` gives of so many vessels; places are bounded by `far` [m]."""
+    level = "ahead and to starboard"
+    of_each = [
+        (
+            Observed(f"vessel_{k}_position_level", "m", 2, far, f"where vessel {k} is, {level}"),
+            Observed(
+                f"vessel_{k}_velocity_level", "m/s", 2, VESSEL_SPEED_BOUND, "its velocity less one's own"
+            ),
+            Observed(f"vessel_{k}_course_level", "", 2, 1.0, f"its course, {level}"),
+            Observed(
+                f"vessel_{k}_rules", "", 3, 1.0, "1 or 0: there at all; to give way to; to leave to port"
+            ),
+        )
+        for k in range(1, count + 1)
+    ]
+    return tuple(one for parts in of_each for one in parts)

@@ -81,6 +81,13 @@ def unable_to_travel(vehicle: Vehicle) -> str | None:
     return "the task goes from place to place, and the vehicle cannot drive ahead and turn"
 
 
+def unable_to_sail(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle is no vessel that goes from place to place at the surface; None if it is."""
+    if vehicle.hydrostatics is None:
+        return "the task is for vessels that float"
+    return unable_to_travel(vehicle)
+
+
 def unable_to_dive_under_way(vehicle: Vehicle) -> str | None:
     """Return why a vehicle cannot change depth while it goes ahead and turns; None if it can."""
     limits = vehicle.wrench_limits
