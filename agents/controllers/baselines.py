@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Protocol, Self
 import gymnasium as gym
 import numpy as np
 
+from dq_marine.agents.controllers.avoidance import AvoidanceController
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.journeys import DepthHeadingController, PathController, WaypointController
 from dq_marine.agents.controllers.reading import shown_names
@@ -56,6 +57,7 @@ CONTROLLERS: tuple[type[Controller], ...] = (
     PathController,
     WaypointController,
     DepthHeadingController,
+    AvoidanceController,
 )
 """What "controller" may mean: the first of them that an environment shows enough to."""
 

@@ -21,6 +21,13 @@ MOTION = ("down_body", "linear_velocity_body", "angular_velocity_body")
 """Parts of an observation that tell of attitude and velocity, wherever the vehicle is."""
 
 
+def slow_bends(pilot: Autopilot, settings: AutopilotSettings, speed: float) -> tuple[float, float]:
+    """Return how slow a vehicle gets in bends, over a speed [m/s], and the radius of bends that it can then keep [m]."""
+    if pilot.stopping_distance(speed) < pilot.length:
+        return settings.slowest, settings.bend_margin * pilot.turning_radius(settings.slowest * speed)
+    return settings.slowest_of_heavy, settings.tightest_turn * pilot.length
+
+
 class PathController:
     """Leads a vehicle along a path by adaptive line of sight, level and vertical."""
 
@@ -100,13 +107,7 @@ class WaypointController:
         self._settings = settings or read_settings("autopilot", AutopilotSettings)
         self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
         self._speed = cruising_speed(inner.vehicle) * self._settings.haste
-        length = inner.vehicle.dimensions.length
-        if self._pilot.stopping_distance(self._speed) < length:
-            self._slowest = self._settings.slowest
-            self._bend = self._settings.bend_margin * self._pilot.turning_radius(self._slowest * self._speed)
-        else:
-            self._slowest = self._settings.slowest_of_heavy
-            self._bend = self._settings.tightest_turn * length
+        self._slowest, self._bend = slow_bends(self._pilot, self._settings, self._speed)
 
     @classmethod
     def for_env(cls, env: gym.Env[Any, Any]) -> WaypointController:
