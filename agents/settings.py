@@ -96,6 +96,7 @@ class AvoidanceSettings(Settings):
     """The choice of a way among obstacles; costs are in radians off the course to the goal.
 
     Attributes:
+        haste: speed, over the speed of journeys.
         look_ahead: how far ahead ways are tried [vehicle lengths].
         margin: room that a way shall leave beside the hull [vehicle lengths].
         softness: room at which the cost of nearness has fallen to 1/e [vehicle lengths].
@@ -106,6 +107,7 @@ class AvoidanceSettings(Settings):
         slowing_room: a vehicle slows down where less of its way is free [vehicle lengths].
     """
 
+    haste: Positive
     look_ahead: Positive
     margin: NonNegative
     softness: Positive

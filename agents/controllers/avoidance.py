@@ -40,7 +40,7 @@ class AvoidanceController:
         own = self._settings = settings or read_settings("avoidance", AvoidanceSettings)
         steering = self._steering = autopilot or read_settings("autopilot", AutopilotSettings)
         self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, steering)
-        self._speed = cruising_speed(inner.vehicle) * steering.haste
+        self._speed = cruising_speed(inner.vehicle) * own.haste
         self._slowest, self._bend = slow_bends(self._pilot, steering, self._speed)
         size, beams = inner.vehicle.dimensions, len(self._read(inner.observation_bound)["beam_readings"])
         self._horizon = min(own.look_ahead, inner.task_settings.reach) * size.length

@@ -43,7 +43,9 @@ class Echoes:
         met = readings < 1.0
         ahead, starboard = self._reach * readings * self._cosines, self._reach * readings * self._sines
         down = math.sin(roll) * starboard
-        level = np.column_stack([math.cos(pitch) * ahead + math.sin(pitch) * down, math.cos(roll) * starboard])
+        level = np.column_stack(
+            [math.cos(pitch) * ahead + math.sin(pitch) * down, math.cos(roll) * starboard]
+        )
         points = np.concatenate([level[met], self._points])
         ages = np.concatenate([np.zeros(int(met.sum())), self._ages])
         sectors = np.floor(np.arctan2(points[:, 1], points[:, 0]) / SECTOR)

@@ -184,7 +184,9 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     """Return what an observation consists of."""
     far = 2.0 * (ROWS + 1.0) * settings.spacing * vehicle.dimensions.length
     return (
-        Observed("beam_readings", "", BEAMS, 1.0, "free way over the reach, from port round the bow to starboard"),
+        Observed(
+            "beam_readings", "", BEAMS, 1.0, "free way over the reach, from port round the bow to starboard"
+        ),
         Observed("goal_direction_body", "", 3, 1.0, "where the goal is, seen from the vehicle"),
         Observed("goal_distance", "m", 1, far, "how far it is"),
         Observed("down_body", "", 3, 1.0, "where down is"),

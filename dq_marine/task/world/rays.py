@@ -31,9 +31,7 @@ def first_root(squared: float, along: float, power: float, reach: float) -> floa
     return select(met, min(distance, reach), reach)
 
 
-def ray_to_sphere(
-    origin: Vector3, direction: Vector3, center: Vector3, radius: float, reach: float
-) -> float:
+def ray_to_sphere(origin: Vector3, direction: Vector3, center: Vector3, radius: float, reach: float) -> float:
     """Return the range to a sphere."""
     off = subtract(center, origin)
     return first_root(dot(direction, direction), dot(direction, off), dot(off, off) - radius * radius, reach)
@@ -47,9 +45,7 @@ def ray_to_pillar(
     return first_root(u * u + v * v, u * x + v * y, x * x + y * y - radius * radius, reach)
 
 
-def ray_to_plane(
-    origin: Vector3, direction: Vector3, normal: Vector3, offset: float, reach: float
-) -> float:
+def ray_to_plane(origin: Vector3, direction: Vector3, normal: Vector3, offset: float, reach: float) -> float:
     """Return the range to the plane n . p = offset, from the side that n points to; behind it is inside."""
     height, sinking = max(dot(normal, origin) - offset, 0.0), -dot(normal, direction)
     distance = height / max(sinking, smallest_normal(sinking))
