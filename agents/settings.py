@@ -97,6 +97,7 @@ class AvoidanceSettings(Settings):
 
     Attributes:
         haste: speed, over the speed of journeys.
+        slowest: speed at the slowest, over that: slower, currents would carry a vehicle off.
         look_ahead: how far ahead ways are tried [vehicle lengths].
         margin: room that a way shall leave beside the hull [vehicle lengths].
         softness: room at which the cost of nearness has fallen to 1/e [vehicle lengths].
@@ -108,6 +109,7 @@ class AvoidanceSettings(Settings):
     """
 
     haste: Positive
+    slowest: Fraction
     look_ahead: Positive
     margin: NonNegative
     softness: Positive

@@ -41,7 +41,7 @@ class AvoidanceController:
         steering = self._steering = autopilot or read_settings("autopilot", AutopilotSettings)
         self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, steering)
         self._speed = cruising_speed(inner.vehicle) * own.haste
-        self._slowest, self._bend = slow_bends(self._pilot, steering, self._speed)
+        self._bend = slow_bends(self._pilot, steering, self._speed)[1]
         size, beams = inner.vehicle.dimensions, len(self._read(inner.observation_bound)["beam_readings"])
         self._horizon = min(own.look_ahead, inner.task_settings.reach) * size.length
         self._ways = Ways(own, 0.5 * size.width, size.length, self._pilot.turning_radius(self._speed))
@@ -81,7 +81,7 @@ class AvoidanceController:
             1.0 - abs(chosen.turn) / self._steering.slowing_angle,
             chosen.free / min(horizon, self._settings.slowing_room * self._pilot.length),
         )
-        speed = max(self._slowest, min(1.0, share)) * self._speed
+        speed = max(self._settings.slowest, min(1.0, share)) * self._speed
         climb = math.atan2(-down, max(level, self._pilot.length))
         error = speed - attitude.velocity_level[0]
         return self._pilot.act(attitude, Order(speed, error, chosen.turn, 0.0, climb))

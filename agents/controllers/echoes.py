@@ -32,14 +32,14 @@ class Echoes:
         return self._points
 
     def move(self, way: tuple[float, float], turn: float, time: float) -> None:
-        """Tell how far the vehicle has gone ahead and to starboard [m], then turned to starboard [rad], in a time [s]."""
+        """Tell how far a vehicle has gone ahead and to starboard [m], and turned to starboard [rad], in a time [s]."""
         c, s = math.cos(turn), math.sin(turn)
         off = self._points - np.array(way)
         self._points = np.column_stack([c * off[:, 0] + s * off[:, 1], c * off[:, 1] - s * off[:, 0]])
         self._ages = self._ages + time
 
     def add(self, readings: Array, roll: float, pitch: float) -> None:
-        """Take the readings of the beams, shares of the reach, at a roll and pitch [rad]; drop what is old or hidden."""
+        """Take the beams' readings, shares of the reach, at a roll and pitch [rad]; drop what is old or hidden."""
         met = readings < 1.0
         ahead, starboard = self._reach * readings * self._cosines, self._reach * readings * self._sines
         down = math.sin(roll) * starboard

@@ -22,7 +22,7 @@ MOTION = ("down_body", "linear_velocity_body", "angular_velocity_body")
 
 
 def slow_bends(pilot: Autopilot, settings: AutopilotSettings, speed: float) -> tuple[float, float]:
-    """Return how slow a vehicle gets in bends, over a speed [m/s], and the radius of bends that it can then keep [m]."""
+    """Return how slow a vehicle gets in bends, over a speed [m/s], and the radius of bends that it then keeps [m]."""
     if pilot.stopping_distance(speed) < pilot.length:
         return settings.slowest, settings.bend_margin * pilot.turning_radius(settings.slowest * speed)
     return settings.slowest_of_heavy, settings.tightest_turn * pilot.length

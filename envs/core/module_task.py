@@ -42,8 +42,8 @@ def define_task(
     """Register the task that a file defines, and return it. The last line of a file that holds a task.
 
     The file has the functions `start`, `observe`, `measure` and `reward`, and where it needs them `initial_memory`,
-    `update_memory`, `terminated`, `succeeded` and `sense`, as `dq_marine.task.protocol.Task` describes them; the named tuples
-    `Metrics` and `Rewards`; the functions `parameters` and `observations`, and where it needs them `Settings`,
+    `update_memory`, `terminated`, `succeeded` and `sense`, as `dq_marine.task.protocol.Task` describes them; the named
+    tuples `Metrics` and `Rewards`; the functions `parameters` and `observations`, and where it needs them `Settings`,
     `fitted`, `goal`, `goal_reward` and `unsuitable`, as `TaskDefinition` describes them. The weights of the reward are
     the defaults of `Weights`, or of `Rewards` where there is none.
 

@@ -37,8 +37,8 @@ DISTURBED = {"randomise": "default", "sensors": "auv"}
 class Settings:
     """Spacing of pillars, reach of beams, radius of arrival [vehicle lengths]; errors of beams; speed of pillars.
 
-    Every other pillar goes at up to `pillar_speed` [share of the speed of journeys]. `noise` is the standard deviation of
-    readings [share of the reach], `dropout` the probability that one is lost, and reads as if nothing were there.
+    Every other pillar goes at up to `pillar_speed` [share of the speed of journeys]. `noise` is the standard deviation
+    of readings [share of the reach], `dropout` the probability that one is lost, and reads as if nothing were there.
     """
 
     spacing: float = 6.0
@@ -63,7 +63,7 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
 
 
 class Parameters(NamedTuple):
-    """Spacing, depth [m], speeds of a journey and of pillars [m/s], reach, noise [m], dropout, arrival [m], hull, period.
+    """Spacing, depth [m], speeds of journeys and pillars [m/s], reach, noise [m], dropout, arrival [m], hull, period.
 
     The period is that of control [s].
     """

@@ -1,5 +1,6 @@
 """Rays and distances of shapes against plain NumPy, and the laws that they keep."""
 
+import itertools
 import math
 
 import numpy as np
@@ -107,7 +108,7 @@ def test_distances_are_those_of_numpy(shape, point):
 
 @given(point=points)
 def test_the_distance_to_a_pipe_is_that_to_the_nearest_of_many_points_on_it(point):
-    on_it = np.concatenate([np.linspace(a, b, 4001) for a, b in zip(CORNERS[:-1], CORNERS[1:], strict=True)])
+    on_it = np.concatenate([np.linspace(a, b, 4001) for a, b in itertools.pairwise(CORNERS)])
     nearest = np.linalg.norm(on_it - point, axis=1).min() - RADIUS
     assert nearest - 1e-3 <= to_pipe(point) <= nearest + 1e-12
 

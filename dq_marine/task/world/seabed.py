@@ -77,7 +77,7 @@ def make_seabed(waves: int) -> Seabed:
 
 def _make_relief(count: int, first: int) -> Callable[[Any, float, float], float]:
     def one(waves: Any, north: float, east: float) -> float:
-        wave = waves[first]
+        wave: Wave = waves[first]
         return wave.amplitude * math.sin(wave.north * north + wave.east * east + wave.phase)
 
     if first == count - 1:
