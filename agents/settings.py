@@ -92,6 +92,34 @@ class AutopilotSettings(Settings):
     slowest_of_heavy: Fraction
 
 
+class AvoidanceSettings(Settings):
+    """The choice of a way among obstacles; costs are in radians off the course to the goal.
+
+    Attributes:
+        haste: speed, over the speed of journeys.
+        slowest: speed at the slowest, over that: slower, currents would carry a vehicle off.
+        look_ahead: how far ahead ways are tried [vehicle lengths].
+        margin: room that a way shall leave beside the hull [vehicle lengths].
+        softness: room at which the cost of nearness has fallen to 1/e [vehicle lengths].
+        nearness: cost of a way that leaves no more than the margin.
+        blocked: cost of a way that is blocked at once.
+        hysteresis: cost of another course than the last, per radian.
+        lasting: how long an echo counts, as way at the speed of journeys [vehicle lengths].
+        slowing_room: a vehicle slows down where less of its way is free [vehicle lengths].
+    """
+
+    haste: Positive
+    slowest: Fraction
+    look_ahead: Positive
+    margin: NonNegative
+    softness: Positive
+    nearness: NonNegative
+    blocked: NonNegative
+    hysteresis: NonNegative
+    lasting: NonNegative
+    slowing_room: Positive
+
+
 class EnvironmentSettings(Settings):
     """The environment: its registered id and the keywords of `gymnasium.make`."""
 

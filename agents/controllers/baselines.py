@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Protocol, Self
 import gymnasium as gym
 import numpy as np
 
+from dq_marine.agents.controllers.avoidance import AvoidanceController
 from dq_marine.agents.controllers.docking import DockingController
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.encounters import EncounterController
@@ -60,6 +61,7 @@ CONTROLLERS: tuple[type[Controller], ...] = (
     WaypointController,
     DepthHeadingController,
     EncounterController,
+    AvoidanceController,
 )
 """What "controller" may mean: the first of them that an environment shows enough to."""
 

@@ -22,6 +22,13 @@ MOTION = ("down_body", "linear_velocity_body", "angular_velocity_body")
 """Parts of an observation that tell of attitude and velocity, wherever the vehicle is."""
 
 
+def slow_bends(pilot: Autopilot, settings: AutopilotSettings, speed: float) -> tuple[float, float]:
+    """Return how slow a vehicle gets in bends, over a speed [m/s], and the radius of bends that it then keeps [m]."""
+    if pilot.stopping_distance(speed) < pilot.length:
+        return settings.slowest, settings.bend_margin * pilot.turning_radius(settings.slowest * speed)
+    return settings.slowest_of_heavy, settings.tightest_turn * pilot.length
+
+
 class Journey:
     """What all controllers of journeys have: a reader of what is shown, their settings, and an autopilot."""
 
@@ -89,13 +96,7 @@ class WaypointController(Journey):
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
         super().__init__(env, settings)
         self._speed = cruising_speed(self._vehicle) * self._settings.haste
-        length = self._vehicle.dimensions.length
-        if self._pilot.stopping_distance(self._speed) < length:
-            self._slowest = self._settings.slowest
-            self._bend = self._settings.bend_margin * self._pilot.turning_radius(self._slowest * self._speed)
-        else:
-            self._slowest = self._settings.slowest_of_heavy
-            self._bend = self._settings.tightest_turn * length
+        self._slowest, self._bend = slow_bends(self._pilot, self._settings, self._speed)
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""

@@ -78,6 +78,18 @@ def sense_nothing(parameters: EpisodeParameters, memory: Any, motion: Motion, un
 NO_SENSORS = Sensing(sense_nothing, 0, sense_nothing, 0)
 
 
+def own_sensing(task: Task) -> Sensing:
+    """Return what the task's own instruments do, if it has any."""
+    if not task.sense_draws:
+        return NO_SENSORS
+    sense = task.sense
+
+    def sense_own(parameters: EpisodeParameters, memory: Any, motion: Motion, uniforms: Any) -> Any:
+        return sense(parameters.task, memory, motion, uniforms)
+
+    return Sensing(sense_own, task.sense_draws, sense_own, task.sense_draws)
+
+
 @dataclass(frozen=True)
 class EpisodeTask:
     """The functions that an episode runs.
@@ -200,5 +212,12 @@ def episode_task(task: Task, extra_rewards: tuple[Callable[[Situation], float], 
 
     none = (task.rewards(*(0.0,) * len(task.rewards._fields)), (0.0,) * len(extra_rewards))
     return EpisodeTask(
-        task.draws, task.start, task.initial_memory, task.update_memory, task.observe, outcome, none
+        task.draws,
+        task.start,
+        task.initial_memory,
+        task.update_memory,
+        task.observe,
+        outcome,
+        none,
+        own_sensing(task),
     )

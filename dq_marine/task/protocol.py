@@ -46,6 +46,11 @@ class Situation(NamedTuple):
     actions: float
 
 
+def no_errors(parameters: Any, memory: Any, motion: Motion, uniforms: Any) -> Any:
+    """Return the memory of a task without instruments of its own."""
+    return memory
+
+
 @dataclass(frozen=True)
 class Task:
     """The functions of a task.
@@ -63,6 +68,9 @@ class Task:
         reward: (parameters, weights, situation) -> terms, each with its weight; their sum is the reward.
         terminated: (parameters, situation) -> whether the episode ends here.
         succeeded: (parameters, situation) -> whether the task counts as done, or as being done, now.
+        sense: (parameters, memory, motion, uniforms) -> memory with the errors of the task's own instruments, such as
+            beams, drawn anew: after the first memory, and in each control period before `update_memory`.
+        sense_draws: how many uniform random numbers in [0, 1) that takes.
     """
 
     draws: int
@@ -76,6 +84,8 @@ class Task:
     reward: Callable[[Any, Any, Situation], Any]
     terminated: Callable[[Any, Situation], Any]
     succeeded: Callable[[Any, Situation], Any]
+    sense: Callable[[Any, Any, Motion, Any], Any] = no_errors
+    sense_draws: int = 0
 
 
 class RewardTerm(NamedTuple):

@@ -8,7 +8,7 @@ from typing import Any
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.registry import register_task
 from dq_marine.errors import InvalidInputError
-from dq_marine.task.protocol import Task, never, no_memory, same_memory
+from dq_marine.task.protocol import Task, never, no_errors, no_memory, same_memory
 
 FORMULAS = {
     "start": None,
@@ -19,6 +19,7 @@ FORMULAS = {
     "reward": None,
     "terminated": never,
     "succeeded": never,
+    "sense": no_errors,
 }
 """Functions of `dq_marine.task.protocol.Task`, and what stands for one that a file does not define."""
 
@@ -35,18 +36,21 @@ OPTIONAL = {
 """Attributes of a `TaskDefinition` that a file may define, and their names there."""
 
 
-def define_task(names: Mapping[str, Any], *, draws: int, **attributes: Any) -> TaskDefinition:
+def define_task(
+    names: Mapping[str, Any], *, draws: int, sense_draws: int = 0, **attributes: Any
+) -> TaskDefinition:
     """Register the task that a file defines, and return it. The last line of a file that holds a task.
 
     The file has the functions `start`, `observe`, `measure` and `reward`, and where it needs them `initial_memory`,
-    `update_memory`, `terminated` and `succeeded`, as `dq_marine.task.protocol.Task` describes them; the named tuples
-    `Metrics` and `Rewards`; the functions `parameters` and `observations`, and where it needs them `Settings`,
+    `update_memory`, `terminated`, `succeeded` and `sense`, as `dq_marine.task.protocol.Task` describes them; the named
+    tuples `Metrics` and `Rewards`; the functions `parameters` and `observations`, and where it needs them `Settings`,
     `fitted`, `goal`, `goal_reward` and `unsuitable`, as `TaskDefinition` describes them. The weights of the reward are
     the defaults of `Weights`, or of `Rewards` where there is none.
 
     Args:
         names: of the file: `globals()`.
         draws: how many uniform random numbers `start` and `initial_memory` take.
+        sense_draws: how many `sense` takes, whenever it is called; without any it is not.
         attributes: the other attributes of `TaskDefinition`: `id`, `summary`, `options`, `units`...
 
     Raises:
@@ -69,7 +73,7 @@ def define_task(names: Mapping[str, Any], *, draws: int, **attributes: Any) -> T
     types = {attribute: names[name] for attribute, name in TYPES.items()}
     found = {attribute: names[name] for attribute, name in OPTIONAL.items() if name in names}
     definition = TaskDefinition(
-        task=Task(draws=draws, **formulas, **types),
+        task=Task(draws=draws, sense_draws=sense_draws, **formulas, **types),
         parameters=names["parameters"],
         observations=names["observations"],
         weights=defaults,

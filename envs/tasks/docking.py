@@ -14,7 +14,6 @@ from dq_marine.algebra.vector3 import bounded_vector, norm, subtract
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.suitability import cruising_speed, paced, steers_only_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
-from dq_marine.envs.kit import unable_to_dive_under_way as unsuitable
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.docks import Contact, Dock, Funnel, Limits, across, approach, contact, heave_of, later

@@ -7,7 +7,12 @@ from pathlib import Path
 import pytest
 
 from dq_marine.agents.preset_files import PRESET_FOLDER, preset_names, read_settings
-from dq_marine.agents.settings import AutopilotSettings, ControllerSettings, TrainingSettings
+from dq_marine.agents.settings import (
+    AutopilotSettings,
+    AvoidanceSettings,
+    ControllerSettings,
+    TrainingSettings,
+)
 from dq_marine.errors import InvalidInputError
 
 
@@ -21,9 +26,10 @@ def edited(tmp_path: Path, preset: str, old: str, new: str) -> Path:
 
 
 def test_shipped_presets_are_valid() -> None:
-    assert preset_names() == ["autopilot", "dp_controller", "ppo", "sac"]
+    assert preset_names() == ["autopilot", "avoidance", "dp_controller", "ppo", "sac"]
     read_settings("dp_controller", ControllerSettings)
     read_settings("autopilot", AutopilotSettings)
+    read_settings("avoidance", AvoidanceSettings)
     for name in ("ppo", "sac"):
         assert read_settings(name, TrainingSettings).algorithm.name == name
 
@@ -58,7 +64,7 @@ def test_controller_mistakes_are_named(tmp_path: Path) -> None:
 def test_what_is_no_preset(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInputError,
-        match="no preset or file 'ddpg'; the presets are autopilot, dp_controller, ppo, sac",
+        match="no preset or file 'ddpg'; the presets are autopilot, avoidance, dp_controller, ppo, sac",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"

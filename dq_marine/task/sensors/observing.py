@@ -123,16 +123,20 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
     believe, show = join_believe(instruments), join_show(instruments)
     first_memory, next_memory = task.initial_memory, task.update_memory
     observe_task, task_outcome = task.observe, task.outcome
-    blank = blank_readings(instruments)
+    blank, own_first, own_later = blank_readings(instruments), task.sensing.first, task.sensing.later
+    begin, proceed = task.sensing.first_draws, task.sensing.later_draws
 
     def initial_memory(parameters: Any, begun: Start, uniforms: tuple[float, ...]) -> Sensed:
         return Sensed(first_memory(parameters, begun, uniforms), blank)
 
     def first(parameters: EpisodeParameters, memory: Sensed, motion: Motion, uniforms: Any) -> Sensed:
-        return Sensed(memory.task, read_first(parameters.sensors, motion, uniforms))
+        sensed = own_first(parameters, memory.task, motion, uniforms[:begin])
+        return Sensed(sensed, read_first(parameters.sensors, motion, uniforms[begin:]))
 
     def later(parameters: EpisodeParameters, memory: Sensed, motion: Motion, uniforms: Any) -> Sensed:
-        return Sensed(memory.task, read_later(parameters.sensors, memory.readings, motion, uniforms))
+        sensed = own_later(parameters, memory.task, motion, uniforms[:proceed])
+        read = read_later(parameters.sensors, memory.readings, motion, uniforms[proceed:])
+        return Sensed(sensed, read)
 
     def update_memory(parameters: Any, memory: Sensed, motion: Motion, measured: Motion) -> Sensed:
         told = believe(memory.readings, measured)
@@ -147,7 +151,12 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
     ) -> TaskOutcome:
         return task_outcome(parameters, memory.task, motion, action_squares)
 
-    sensing = Sensing(first, sum(map(first_draws, instruments)), later, sum(map(later_draws, instruments)))
+    sensing = Sensing(
+        first,
+        begin + sum(map(first_draws, instruments)),
+        later,
+        proceed + sum(map(later_draws, instruments)),
+    )
     return replace(
         task,
         initial_memory=initial_memory,

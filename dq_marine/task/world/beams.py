@@ -1,0 +1,102 @@
+"""Range sensors: fans of beams fixed to a vehicle, and what is wrong with their readings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from dq_marine.algebra.normal import normal_pair
+from dq_marine.algebra.quaternion import Quaternion, rotate
+from dq_marine.algebra.selection import select, smallest_normal
+from dq_marine.algebra.vector3 import Vector3, add_scaled, scale
+
+FORWARD = math.pi
+"""Angle of a fan that sees all that is ahead [rad]."""
+
+NO_ECHO = 1e9
+"""Error of a reading that is lost [m]: held within the reach, it reads as if nothing were there."""
+
+Cast = Callable[[Any, Vector3, Vector3, float], float]
+"""(world, origin, direction, reach) -> range."""
+
+
+def fan_bearings(beams: int, spread: float) -> tuple[float, ...]:
+    """Return the bearings of beams from the bow, from port to starboard, evenly within half a spread [rad]."""
+    return tuple(spread * (i / (beams - 1) - 0.5) for i in range(beams))
+
+
+def make_fan(bearings: tuple[float, ...], cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
+    """Return (world, position, attitude, reach) -> ranges of beams in the plane of bow and starboard."""
+    beams = _make_beams(bearings, cast)
+
+    def fan(world: Any, position: Vector3, attitude: Quaternion, reach: float) -> Any:
+        ahead, starboard = rotate(attitude, (1.0, 0.0, 0.0)), rotate(attitude, (0.0, 1.0, 0.0))
+        return beams(world, position, ahead, starboard, reach)
+
+    return fan
+
+
+def _make_beams(bearings: tuple[float, ...], cast: Cast) -> Callable[..., Any]:
+    cosine, sine = math.cos(bearings[0]), math.sin(bearings[0])
+
+    def one(world: Any, position: Vector3, ahead: Vector3, starboard: Vector3, reach: float) -> Any:
+        return (cast(world, position, add_scaled(scale(cosine, ahead), sine, starboard), reach),)
+
+    if len(bearings) == 1:
+        return one
+    rest = _make_beams(bearings[1:], cast)
+
+    def beams(world: Any, position: Vector3, ahead: Vector3, starboard: Vector3, reach: float) -> Any:
+        nearest = one(world, position, ahead, starboard, reach)
+        return (*nearest, *rest(world, position, ahead, starboard, reach))
+
+    return beams
+
+
+def make_errors(beams: int, first: int = 0) -> Callable[[float, float, tuple[float, ...]], Any]:
+    """Return (noise [m], dropout, uniforms) -> errors of an even number of readings [m], one uniform number for each.
+
+    A reading is lost with a probability of `dropout`, which is less than 1; else its error is normal.
+    """
+    second = first + 1
+
+    def pair(noise: float, dropout: float, uniforms: tuple[float, ...]) -> Any:
+        a, b = uniforms[first], uniforms[second]
+        one, other = normal_pair(_left_over(a, dropout), _left_over(b, dropout))
+        return (
+            select(a < dropout, NO_ECHO, noise * one),
+            select(b < dropout, NO_ECHO, noise * other),
+        )
+
+    if second == beams - 1:
+        return pair
+    rest = make_errors(beams, first + 2)
+
+    def errors(noise: float, dropout: float, uniforms: tuple[float, ...]) -> Any:
+        return (*pair(noise, dropout, uniforms), *rest(noise, dropout, uniforms))
+
+    return errors
+
+
+def make_readings(beams: int, first: int = 0) -> Callable[[Any, Any, float], Any]:
+    """Return (ranges [m], errors [m], reach [m]) -> readings as shares of the reach."""
+
+    def one(ranges: Any, errors: Any, reach: float) -> Any:
+        return (max(0.0, min(1.0, (ranges[first] + errors[first]) / reach)),)
+
+    if first == beams - 1:
+        return one
+    rest = make_readings(beams, first + 1)
+
+    def readings(ranges: Any, errors: Any, reach: float) -> Any:
+        return (*one(ranges, errors, reach), *rest(ranges, errors, reach))
+
+    return readings
+
+
+def _left_over(uniform: float, dropout: float) -> float:
+    """Return a uniform number that does not depend on whether the given one is below `dropout`."""
+    tiny = smallest_normal(uniform)
+    lost, kept = uniform / max(dropout, tiny), (uniform - dropout) / (1.0 - dropout)
+    return select(uniform < dropout, lost, kept)

@@ -1,0 +1,174 @@
+"""Fields of vertical pillars, still or adrift: where they stand, how far the nearest is, and what a beam meets."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from dq_marine.algebra.quaternion import Quaternion, rotate
+from dq_marine.algebra.selection import select
+from dq_marine.algebra.vector3 import Vector3
+from dq_marine.task.world.rays import ray_to_pillar
+
+PILLAR_DRAWS = 5
+"""Uniform random numbers that a pillar of a field takes; and each row takes one more."""
+
+THICKNESS = (0.08, 0.2)
+"""Radii of the pillars of a field, over the spacing."""
+
+SCATTER = (0.15, 0.1)
+"""Farthest that a pillar of a field is from its row and from its place in it, over the spacing."""
+
+
+class Pillar(NamedTuple):
+    """A vertical cylinder without ends: where its axis is, its radius [m], and its velocity [m/s]."""
+
+    north: float
+    east: float
+    radius: float
+    north_velocity: float
+    east_velocity: float
+
+
+class Hull(NamedTuple):
+    """A vehicle seen from above, as all that is within half its beam of a line along it: half the sizes [m]."""
+
+    half_length: float
+    half_beam: float
+
+
+class Footprint(NamedTuple):
+    """Where a hull is, and the level unit vector that its bow points along."""
+
+    north: float
+    east: float
+    ahead_north: float
+    ahead_east: float
+
+
+class Nearest(NamedTuple):
+    """Clearance between a hull and the nearest pillar [m], and that pillar's velocity [m/s]."""
+
+    clearance: float
+    north_velocity: float
+    east_velocity: float
+
+
+def footprint(position_ned: Vector3, attitude: Quaternion) -> Footprint:
+    """Return what is seen of a vehicle from above; of one that stands on end, a point is all there is."""
+    bow = rotate(attitude, (1.0, 0.0, 0.0))
+    level = max(math.sqrt(bow[0] * bow[0] + bow[1] * bow[1]), 1e-9)
+    return Footprint(position_ned[0], position_ned[1], bow[0] / level, bow[1] / level)
+
+
+def clearance(pillar: Pillar, place: Footprint, hull: Hull) -> float:
+    """Return how far a hull's side is from a pillar's [m]; less than 0 where they overlap."""
+    north, east = pillar.north - place.north, pillar.east - place.east
+    ahead = place.ahead_north * north + place.ahead_east * east
+    aside = place.ahead_north * east - place.ahead_east * north
+    beyond = max(abs(ahead) - max(hull.half_length - hull.half_beam, 0.0), 0.0)
+    return math.sqrt(beyond * beyond + aside * aside) - hull.half_beam - pillar.radius
+
+
+def make_nearest(count: int, first: int = 0) -> Callable[[Any, Footprint, Hull], Nearest]:
+    """Return (pillars, footprint, hull) -> the nearest of so many pillars."""
+
+    def one(pillars: Any, place: Footprint, hull: Hull) -> Nearest:
+        pillar = pillars[first]
+        return Nearest(clearance(pillar, place, hull), pillar.north_velocity, pillar.east_velocity)
+
+    if first == count - 1:
+        return one
+    rest = make_nearest(count, first + 1)
+
+    def nearest(pillars: Any, place: Footprint, hull: Hull) -> Nearest:
+        here, others = one(pillars, place, hull), rest(pillars, place, hull)
+        return select(here.clearance <= others.clearance, here, others)
+
+    return nearest
+
+
+def make_pillar_cast(count: int, first: int = 0) -> Callable[[Any, Vector3, Vector3, float], float]:
+    """Return (pillars, origin, direction, reach) -> range to the first of so many pillars that a ray meets."""
+
+    def one(pillars: Any, origin: Vector3, direction: Vector3, reach: float) -> float:
+        pillar = pillars[first]
+        return ray_to_pillar(origin, direction, pillar.north, pillar.east, pillar.radius, reach)
+
+    if first == count - 1:
+        return one
+    rest = make_pillar_cast(count, first + 1)
+
+    def cast(pillars: Any, origin: Vector3, direction: Vector3, reach: float) -> float:
+        return min(one(pillars, origin, direction, reach), rest(pillars, origin, direction, reach))
+
+    return cast
+
+
+def make_drifted(count: int, first: int = 0) -> Callable[[Any, float], Any]:
+    """Return (pillars, time [s]) -> where so many pillars are after that time."""
+
+    def one(pillars: Any, time: float) -> Any:
+        old = pillars[first]
+        north, east = old.north + time * old.north_velocity, old.east + time * old.east_velocity
+        return (Pillar(north, east, old.radius, old.north_velocity, old.east_velocity),)
+
+    if first == count - 1:
+        return one
+    rest = make_drifted(count, first + 1)
+
+    def drifted(pillars: Any, time: float) -> Any:
+        return (*one(pillars, time), *rest(pillars, time))
+
+    return drifted
+
+
+def field_draws(rows: int, columns: int) -> int:
+    """Return how many uniform random numbers a field takes."""
+    return rows * (1 + columns * PILLAR_DRAWS)
+
+
+def make_field(rows: int, columns: int) -> Callable[[float, float, float, tuple[float, ...], int], Any]:
+    """Return (course [rad], spacing [m], speed [m/s], uniforms, index) -> pillars in rows across a course.
+
+    The rows are a spacing apart, the first a spacing from the origin. Each is shifted along itself by up to half a
+    spacing, and its pillars, a spacing apart, are scattered. Every other pillar goes at up to the speed, any way.
+    """
+    return _make_field_from(rows, columns, 0)
+
+
+def _make_field_from(rows: int, columns: int, number: int) -> Callable[..., Any]:
+    row, column = divmod(number, columns)
+    along, across, moving = row + 1.0, column - 0.5 * (columns - 1), float(number % 2)
+    shift, own = row * (1 + columns * PILLAR_DRAWS), 1 + column * PILLAR_DRAWS
+
+    def one(course: float, spacing: float, speed: float, uniforms: tuple[float, ...], index: int) -> Any:
+        at, c, s = index + shift + own, math.cos(course), math.sin(course)
+        ahead = spacing * (along + SCATTER[0] * (2.0 * uniforms[at] - 1.0))
+        aside = spacing * (
+            across + uniforms[index + shift] - 0.5 + SCATTER[1] * (2.0 * uniforms[at + 1] - 1.0)
+        )
+        radius = spacing * (THICKNESS[0] + (THICKNESS[1] - THICKNESS[0]) * uniforms[at + 2])
+        way, pace = 2.0 * math.pi * uniforms[at + 3], moving * speed * uniforms[at + 4]
+        return (
+            Pillar(
+                c * ahead - s * aside,
+                s * ahead + c * aside,
+                radius,
+                pace * math.cos(way),
+                pace * math.sin(way),
+            ),
+        )
+
+    if number == rows * columns - 1:
+        return one
+    rest = _make_field_from(rows, columns, number + 1)
+
+    def field(course: float, spacing: float, speed: float, uniforms: tuple[float, ...], index: int) -> Any:
+        return (
+            *one(course, spacing, speed, uniforms, index),
+            *rest(course, spacing, speed, uniforms, index),
+        )
+
+    return field
