@@ -18,13 +18,20 @@ from dq_marine.integrator.body import Motion
 from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.world.beams import FORWARD, fan_bearings, make_errors, make_fan, make_readings
-from dq_marine.task.world.pillars import Hull, field_draws, footprint, make_drifted, make_field, make_nearest
-from dq_marine.task.world.pillars import make_pillar_cast as make_cast
+from dq_marine.task.world.pillars import (
+    Hull,
+    field_draws,
+    footprint,
+    make_drifted,
+    make_field,
+    make_nearest,
+    pillars_cast,
+)
 
 ROWS, COLUMNS, BEAMS = 4, 3, 24  # of the field; and how many beams see what is ahead
 PILLARS = ROWS * COLUMNS
 drawn_field, drifted, nearest = make_field(ROWS, COLUMNS), make_drifted(PILLARS), make_nearest(PILLARS)
-fan = make_fan(fan_bearings(BEAMS, FORWARD), make_cast(PILLARS))
+fan = make_fan(fan_bearings(BEAMS, FORWARD), pillars_cast)
 drawn_errors, readings = make_errors(BEAMS), make_readings(BEAMS)
 EXACT = (0.0,) * BEAMS  # errors before there are readings
 LEAST_DEPTH = 20.0  # of starts of vehicles that do not float; ten lengths of long ones [m]
@@ -63,10 +70,7 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
 
 
 class Parameters(NamedTuple):
-    """Spacing, depth [m], speeds of journeys and pillars [m/s], reach, noise [m], dropout, arrival [m], hull, period.
-
-    The period is that of control [s].
-    """
+    """Spacing, depth [m], speeds of journeys, pillars [m/s], reach, noise [m], dropout, arrival [m], hull; period [s]."""
 
     spacing: float
     depth: float

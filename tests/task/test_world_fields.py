@@ -20,15 +20,15 @@ from dq_marine.task.world.pillars import (
     make_drifted,
     make_field,
     make_nearest,
-    make_pillar_cast,
+    pillars_cast,
 )
 from dq_marine.task.world.seabed import WAVE_DRAWS, make_seabed
 
 ROWS, COLUMNS, BEAMS, SPACING, REACH = 3, 2, 16, 6.0, 20.0
 COUNT = ROWS * COLUMNS
-FIELD, CAST = make_field(ROWS, COLUMNS), make_pillar_cast(COUNT)
+FIELD = make_field(ROWS, COLUMNS)
 BEARINGS = fan_bearings(BEAMS, FORWARD)
-FAN = make_fan(BEARINGS, CAST)
+FAN = make_fan(BEARINGS, pillars_cast)
 HULL = Hull(2.0, 0.5)
 WAVES, STEEPEST = 4, 0.3
 SEABED = make_seabed(WAVES)

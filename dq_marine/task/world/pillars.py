@@ -89,21 +89,13 @@ def make_nearest(count: int, first: int = 0) -> Callable[[Any, Footprint, Hull],
     return nearest
 
 
-def make_pillar_cast(count: int, first: int = 0) -> Callable[[Any, Vector3, Vector3, float], float]:
-    """Return (pillars, origin, direction, reach) -> range to the first of so many pillars that a ray meets."""
-
-    def one(pillars: Any, origin: Vector3, direction: Vector3, reach: float) -> float:
-        pillar = pillars[first]
-        return ray_to_pillar(origin, direction, pillar.north, pillar.east, pillar.radius, reach)
-
-    if first == count - 1:
-        return one
-    rest = make_pillar_cast(count, first + 1)
-
-    def cast(pillars: Any, origin: Vector3, direction: Vector3, reach: float) -> float:
-        return min(one(pillars, origin, direction, reach), rest(pillars, origin, direction, reach))
-
-    return cast
+def pillars_cast(pillars: Any, origin: Vector3, direction: Vector3, reach: float) -> float:
+    """Return the range to the first of the pillars that a ray meets; a loop, for beams are many to be compiled."""
+    nearest = reach + 0.0 * origin[0]
+    for pillar in pillars:
+        found = ray_to_pillar(origin, direction, pillar.north, pillar.east, pillar.radius, reach)
+        nearest = min(nearest, found)
+    return nearest
 
 
 def make_drifted(count: int, first: int = 0) -> Callable[[Any, float], Any]:
