@@ -70,7 +70,7 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
 
 
 class Parameters(NamedTuple):
-    """Spacing, depth [m], speeds of journeys and pillars [m/s], reach, noise, dropout, arrival [m], hull, period [s]."""
+    """Spacing, depth [m]; speeds of vehicle and pillars [m/s]; reach, noise, dropout, arrival [m]; hull; period [s]."""
 
     spacing: float
     depth: float
