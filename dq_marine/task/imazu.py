@@ -5,9 +5,10 @@ English in Cai, Y., Hasegawa, K. (2013). Evaluating of marine traffic simulation
 JASNAOE 16, and in Sawada, R., Sato, K., Majima, T. (2021). Automatic ship collision avoidance using deep
 reinforcement learning with LSTM in continuous action spaces. J. Marine Sci. Technol. 26, 509-524.
 
-All ships keep course and speed, and their straight tracks meet at one point at one time. Later authors print some
-angles a few degrees otherwise, and case 8 with the second ship from starboard, as in case 5; here it comes from
-port, as others have it.
+All ships keep course and speed, and their straight tracks meet at one point at one time. The angles are those of the
+open implementation tud_rl (its environment MMG_Imazu), which names the last of these; the papers themselves were not
+seen. Others print some angles a few degrees otherwise. Case 8 with the second ship from starboard would be case 5;
+here it comes from port, as the open colav-simulator has it.
 """
 
 from __future__ import annotations
