@@ -12,7 +12,12 @@ from dq_marine.algebra.selection import spread
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import bounded_vector, norm, subtract
 from dq_marine.checks import finite_number
-from dq_marine.envs.core.suitability import cruising_speed, paced, steers_only_under_way
+from dq_marine.envs.core.suitability import (
+    cruising_speed,
+    paced,
+    steers_only_under_way,
+    unable_to_dive_under_way,
+)
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
@@ -235,6 +240,7 @@ define_task(
         "medium": {"current": 0.2},
         "hard": {"heave": 2.0, "angle": 60.0, "current": 0.3, "randomise": "default", "sensors": "auv"},
     },
+    unsuitable=unable_to_dive_under_way,
     control_period=paced,
     max_episode_steps=900,
 )
