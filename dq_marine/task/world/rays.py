@@ -55,7 +55,10 @@ def ray_to_plane(origin: Vector3, direction: Vector3, normal: Vector3, offset: f
 def ray_to_box(
     origin: Vector3, direction: Vector3, center: Vector3, half_size: Vector3, reach: float
 ) -> float:
-    """Return the range to a box along the axes: where the ray is in all three of its slabs (Kay & Kajiya 1986)."""
+    """Return the range to a box along the axes: where the ray is in all three of its slabs (Kay & Kajiya 1986).
+
+    A ray that runs in a face, and never comes within, may meet the box or not.
+    """
     x0, x1 = _slab(origin[0] - center[0], direction[0], half_size[0])
     y0, y1 = _slab(origin[1] - center[1], direction[1], half_size[1])
     z0, z1 = _slab(origin[2] - center[2], direction[2], half_size[2])
