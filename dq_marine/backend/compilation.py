@@ -13,7 +13,7 @@ from numba.extending import overload, register_jitable
 import dq_marine.backend.stages  # noqa: F401  gives compiled code what `algebra.stages` names
 from dq_marine.backend.disk_cache import keep_on_disk
 from dq_marine.backend.fingerprint import all_used_functions, key_and_fingerprint
-from dq_marine.backend.garbage import collect_garbage_rarely_while_compiling
+from dq_marine.backend.while_compiling import watch_compilations
 from dq_marine.backend.inlining import INLINED
 from dq_marine.backend.parts import PARTS
 from dq_marine.backend.selection import PROVIDED
@@ -44,7 +44,7 @@ def compile_function(
         The compiled function; it is loaded from disk if sources, Numba and processor are those of the last
         time.
     """
-    collect_garbage_rarely_while_compiling()
+    watch_compilations()
     for part in apart:
         compile_apart(part)
     for part in all_used_functions(function):
