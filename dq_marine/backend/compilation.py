@@ -13,10 +13,10 @@ from numba.extending import overload, register_jitable
 import dq_marine.backend.stages  # noqa: F401  gives compiled code what `algebra.stages` names
 from dq_marine.backend.disk_cache import keep_on_disk
 from dq_marine.backend.fingerprint import all_used_functions, key_and_fingerprint
-from dq_marine.backend.while_compiling import watch_compilations
 from dq_marine.backend.inlining import INLINED
 from dq_marine.backend.parts import PARTS
 from dq_marine.backend.selection import PROVIDED
+from dq_marine.backend.while_compiling import watch_compilations
 
 
 @functools.cache
