@@ -25,7 +25,11 @@ FLIGHTS = [
 `tests/envs/core/test_registry.py` flies every task with every vehicle, one by one.
 """
 
-every_flight = pytest.mark.parametrize(("task", "vehicle"), sweep(FLIGHTS, plain=DEFAULTS))
+WITH_MOST = [one for one in DEFAULTS if one[0] in ("DynamicPositioning", "ObstacleAvoidance")]
+"""The tasks with the most weather and the most instruments. `tests/envs/vector` has StationKeeping's lanes."""
+
+every_flight = pytest.mark.parametrize(("task", "vehicle"), sweep(FLIGHTS, plain=WITH_MOST))
+every_task = pytest.mark.parametrize("task", sweep(TASKS, plain=["StationKeeping", "Encounter"]))
 
 
 @every_flight
@@ -46,7 +50,7 @@ def test_ten_thousand_random_steps_stay_finite_and_within_the_observation_space(
         assert observations in envs.observation_space
 
 
-@pytest.mark.parametrize("task", TASKS)
+@every_task
 def test_an_episode_can_be_kept_and_shown(task, tmp_path):
     env = gym.make(TASKS[task].id, record=True).unwrapped
     env.reset(seed=0)
@@ -58,7 +62,7 @@ def test_an_episode_can_be_kept_and_shown(task, tmp_path):
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("task", TASKS)
+@every_task
 def test_a_picture_is_drawn(task):
     env = gym.make(TASKS[task].id, render_mode="rgb_array")
     env.reset(seed=0)
