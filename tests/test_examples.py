@@ -11,9 +11,10 @@ from support.sweeps import sweep
 ROOT = Path(__file__).parents[1]
 EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py"))
 LONG = {"hindsight_replay", "ship_in_waves", "train_with_sb3"}
+AS_ON_A_PAGE = {"own_force", "own_reward"}  # tests/cli/test_add.py flies the like
 
 
-@pytest.mark.parametrize("name", sweep(EXAMPLES, plain=sorted(set(EXAMPLES) - LONG)))
+@pytest.mark.parametrize("name", sweep(EXAMPLES, plain=sorted(set(EXAMPLES) - LONG - AS_ON_A_PAGE)))
 def test_example(name, tmp_path):
     path = ROOT / "examples" / f"{name}.py"
     result = subprocess.run(

@@ -45,7 +45,7 @@ CASES = [
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("task", "keywords", "count"),
-    sweep(CASES, plain=[(STATION_KEEPING, "wrenches", 0), (STATION_KEEPING, "wrenches", 3)]),
+    sweep(CASES, plain=[(STATION_KEEPING, "wrenches", 0)]),
 )
 def test_an_environment_that_travelled_goes_on_bit_for_bit(task, keywords, count):
     make = maker(task, keywords, count)
