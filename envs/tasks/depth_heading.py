@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.euler import quaternion_from_euler
+from dq_marine.algebra.level import seen_at
 from dq_marine.algebra.quaternion import rotate, rotate_inverse
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.spatial import Spatial
@@ -135,8 +136,7 @@ def drawn_order(
 def errors(order: Order, motion: Motion) -> tuple[float, float, float]:
     """Return how much deeper [m], further to starboard [rad] and faster [m/s] a vehicle should be."""
     bow = rotate(motion.attitude, (1.0, 0.0, 0.0))
-    along, across = bow[0] * order.north + bow[1] * order.east, bow[0] * order.east - bow[1] * order.north
-    turn = math.atan2(across, along)
+    turn = seen_at((bow[0], bow[1]), (order.north, order.east))
     return (order.depth - motion.position_ned[2], turn, order.speed - motion.velocity.linear[0])
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.euler import quaternion_from_euler
+from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, level_length
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.spatial import Spatial
@@ -16,7 +17,6 @@ from dq_marine.envs.core.observed import vessels_shown
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_sail
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task
 from dq_marine.integrator.body import Motion
-from dq_marine.task.colregs import Level, level_cross, level_dot, level_length
 from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.imazu import IMAZU_CASES
 from dq_marine.task.lookout import (
@@ -26,7 +26,6 @@ from dq_marine.task.lookout import (
     crowding,
     first_lookout,
     least_distance,
-    level_bow,
     lookout_kept,
     next_approach,
     shown,
@@ -162,7 +161,7 @@ def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Mot
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
     """Return what `observations` lists."""
     along, starboard = along_route(memory.course, measured)
-    bow, far = level_bow(measured), FAR * own.way
+    bow, far = level_bow(measured.attitude), FAR * own.way
     return (
         bounded(starboard, far),
         bounded(2.0 * own.way - along, far),
