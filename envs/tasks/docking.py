@@ -6,12 +6,11 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import spread
-from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import bounded_vector, norm, subtract
 from dq_marine.checks import finite_number
+from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import (
     cruising_speed,
     paced,
@@ -23,6 +22,7 @@ from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.docks import Contact, Dock, Funnel, Limits, across, approach, contact, heave_of, later
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.starts import under_way
 
 THROAT, LEAST_THROAT = 0.1, 0.1  # radius of the throat [lengths, but at least m]
 CONE, FLARE = 1.0, math.radians(20.0)  # length of the funnel [lengths], angle of its wall (1)
@@ -113,7 +113,7 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
     vehicle, length = context.vehicle, context.vehicle.dimensions.length
     farther, narrower = (FARTHER, 1.0 / FARTHER) if steers_only_under_way(vehicle) else (1.0, 1.0)
-    throat, depth = max(LEAST_THROAT, THROAT * length), max(LEAST_DEPTH, 10.0 * length)
+    throat, depth = max(LEAST_THROAT, THROAT * length), starting_depth(vehicle, LEAST_DEPTH)
     return Parameters(
         farther * length * settings.distance,
         narrower * math.radians(settings.angle),
@@ -133,11 +133,8 @@ def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     slope = 0.5 * own.angle * (2.0 * uniforms[2] - 1.0)
     level, below = own.distance * math.cos(slope), own.distance * math.sin(slope)
     heading = bearing + START_TURN * (2.0 * uniforms[3] - 1.0)
-    return Start(
-        (-level * math.cos(bearing), -level * math.sin(bearing), own.dock.depth + below),
-        quaternion_from_euler(0.0, 0.0, heading),
-        Spatial((0.0, 0.0, 0.0), (own.speed, 0.0, 0.0)),
-    )
+    place = (-level * math.cos(bearing), -level * math.sin(bearing), own.dock.depth + below)
+    return under_way(place, heading, own.speed)
 
 
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
