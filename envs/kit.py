@@ -6,6 +6,7 @@ Import functions by name, not through this module: what is compiled finds them b
 from __future__ import annotations
 
 from dq_marine.algebra.euler import quaternion_from_euler
+from dq_marine.algebra.level import seen_at
 from dq_marine.algebra.quaternion import (
     Quaternion,
     quaternion_conjugate,
@@ -104,6 +105,7 @@ __all__ = [
     "rotate",
     "rotate_inverse",
     "scale",
+    "seen_at",
     "select",
     "shaped_curve",
     "slow_start",

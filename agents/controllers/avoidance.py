@@ -8,11 +8,10 @@ from typing import Any, ClassVar
 import gymnasium as gym
 import numpy as np
 
-from dq_marine.agents.controllers.autopilot import Attitude, Autopilot, Order, seen
+from dq_marine.agents.controllers.autopilot import Attitude, Order, seen
 from dq_marine.agents.controllers.echoes import Echoes
-from dq_marine.agents.controllers.guidance import levelled, wrapped
-from dq_marine.agents.controllers.journeys import MOTION, slow_bends
-from dq_marine.agents.controllers.reading import parts_reader
+from dq_marine.agents.controllers.guidance import levelled, no_turn_leads_to, wrapped
+from dq_marine.agents.controllers.journeys import MOTION, Journey, slow_bends
 from dq_marine.agents.controllers.ways import Ways
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
@@ -23,7 +22,7 @@ from dq_marine.envs.core.suitability import cruising_speed
 from dq_marine.task.world.beams import FORWARD, fan_bearings
 
 
-class AvoidanceController:
+class AvoidanceController(Journey):
     """Leads a vehicle to a goal, each time by the way that costs least, and slowly where room is short."""
 
     READS: ClassVar[tuple[str, ...]] = ("beam_readings", "goal_direction_body", "goal_distance", *MOTION)
@@ -35,14 +34,12 @@ class AvoidanceController:
         autopilot: AutopilotSettings | None = None,
     ) -> None:
         """Prepare for an environment's vehicle; None reads the presets `avoidance` and `autopilot`."""
-        inner = marine(env)
-        self._read = parts_reader(inner, self.READS)
-        own = self._settings = settings or read_settings("avoidance", AvoidanceSettings)
-        steering = self._steering = autopilot or read_settings("autopilot", AutopilotSettings)
-        self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, steering)
-        self._speed = cruising_speed(inner.vehicle) * own.haste
-        self._bend = slow_bends(self._pilot, steering, self._speed)[1]
-        size, beams = inner.vehicle.dimensions, len(self._read(inner.observation_bound)["beam_readings"])
+        super().__init__(env, autopilot)
+        inner, size = marine(env), self._vehicle.dimensions
+        own = self._avoidance = settings or read_settings("avoidance", AvoidanceSettings)
+        self._speed = cruising_speed(self._vehicle) * own.haste
+        self._bend = slow_bends(self._pilot, self._settings, self._speed)[1]
+        beams = len(self._read(inner.observation_bound)["beam_readings"])
         self._horizon = min(own.look_ahead, inner.task_settings.reach) * size.length
         self._ways = Ways(own, 0.5 * size.width, size.length, self._pilot.turning_radius(self._speed))
         self._echoes = Echoes(
@@ -52,14 +49,9 @@ class AvoidanceController:
         )
         self._kept: float | None = None
 
-    @classmethod
-    def for_env(cls, env: gym.Env[Any, Any]) -> AvoidanceController:
-        """Return the controller for an environment's vehicle."""
-        return cls(env)
-
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
-        self._pilot.reset()
+        super().reset(env)
         self._echoes.reset()
         self._kept = None
 
@@ -71,17 +63,17 @@ class AvoidanceController:
         ahead, starboard, down = (distance * part for part in way)
         level = math.hypot(ahead, starboard)
         wanted = math.atan2(starboard, ahead)
-        if math.hypot(ahead, abs(starboard) - self._bend) < self._bend:
-            wanted = attitude.drift_angle  # no turn leads there: on, until one does
+        if no_turn_leads_to(ahead, starboard, self._bend):
+            wanted = attitude.drift_angle  # on, until one does
         kept = self._remember(parts["beam_readings"], attitude, wanted)
         horizon = max(self._pilot.length, min(self._horizon, level))
         chosen = self._ways.choose(self._echoes.points, attitude.drift_angle, wanted, kept, horizon)
         self._kept = wrapped(attitude.drift_angle + chosen.turn)
         share = min(
-            1.0 - abs(chosen.turn) / self._steering.slowing_angle,
-            chosen.free / min(horizon, self._settings.slowing_room * self._pilot.length),
+            1.0 - abs(chosen.turn) / self._settings.slowing_angle,
+            chosen.free / min(horizon, self._avoidance.slowing_room * self._pilot.length),
         )
-        speed = max(self._settings.slowest, min(1.0, share)) * self._speed
+        speed = max(self._avoidance.slowest, min(1.0, share)) * self._speed
         climb = math.atan2(-down, max(level, self._pilot.length))
         error = speed - attitude.velocity_level[0]
         return self._pilot.act(attitude, Order(speed, error, chosen.turn, 0.0, climb))

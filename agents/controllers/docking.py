@@ -8,8 +8,9 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.agents.controllers.autopilot import Autopilot, seen
+from dq_marine.agents.controllers.autopilot import seen
 from dq_marine.agents.controllers.dp_controller import DPController
+from dq_marine.agents.controllers.journeys import Journey
 from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
 from dq_marine.agents.controllers.reading import GOAL_POSE, Reading, goal_pose, parts_reader
 from dq_marine.agents.environments import marine
@@ -26,10 +27,13 @@ WAITING = 0.5  # a vehicle this near to where it should wait goes on [lengths]
 CLEAR = (
     0.5,
     0.1,
-)  # off the axis by no more than a share of the throat's radius and of the distance that is left
+)  # off the axis by no more than shares of the throat's radius and of the distance that is left
 HASTE = 0.6  # speed of the approach, over the contact speed; of vehicles that cannot stop:
 HASTE_UNDER_WAY = 0.8
 BEYOND = 0.5  # how far beyond the throat a vehicle is led: it has to come through [lengths]
+# Of the line of sight, in place of the preset's: an approach is too short to lose again what adaptation finds in the
+# offset of its start and in the heave. A current needs none, because it is the course over ground that is led.
+ADAPTATION = 0.0
 
 
 class Way(Protocol):
@@ -111,19 +115,20 @@ class Creeping:
         )
 
 
-class FlyingIn:
+class FlyingIn(Journey):
     """Leads a vehicle along the dock's axis by line of sight, at the speed at which it may come in."""
+
+    READS = DockingController.READS
 
     def __init__(self, env: MarineEnv) -> None:
         """Prepare for an environment's vehicle."""
-        settings = read_settings("autopilot", AutopilotSettings).model_copy(update={"adaptation": 0.0})
-        self._read = parts_reader(env, DockingController.READS)
-        self._pilot = Autopilot(env.vehicle, env.control_period, env.scene.actuation, settings)
-        self._guidance = LineOfSight(self._pilot, settings)
+        settings = read_settings("autopilot", AutopilotSettings)
+        super().__init__(env, settings.model_copy(update={"adaptation": ADAPTATION}))
+        self._guidance = LineOfSight(self._pilot, self._settings)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
-        self._pilot.reset()
+        super().reset(env)
         self._guidance.reset()
 
     def act(self, observation: Observation) -> Action:

@@ -9,13 +9,10 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.agents.controllers.autopilot import YAW, Autopilot, Order, seen
+from dq_marine.agents.controllers.autopilot import YAW, Order, seen
 from dq_marine.agents.controllers.guidance import wrapped
-from dq_marine.agents.controllers.journeys import MOTION
-from dq_marine.agents.controllers.reading import parts_reader
+from dq_marine.agents.controllers.journeys import MOTION, Journey
 from dq_marine.agents.controllers.velocity_obstacles import ON_ROUTE, CourseChoice, Others, Own, sight
-from dq_marine.agents.environments import marine
-from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
@@ -30,7 +27,7 @@ BETWEEN_CHOICES = 0.5
 """Way between two choices of a course [own lengths]."""
 
 
-class EncounterController:
+class EncounterController(Journey):
     """Goes along a route, and gives way to others by the rules of the road."""
 
     READS: ClassVar[tuple[str, ...]] = (
@@ -42,30 +39,20 @@ class EncounterController:
 
     def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        inner = marine(env)
-        self._read = parts_reader(inner, self.READS)
-        chosen = settings or read_settings("autopilot", AutopilotSettings)
-        self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, chosen)
-        self._speed = cruising_speed(inner.vehicle)
+        super().__init__(env, settings)
+        self._speed, length = cruising_speed(self._vehicle), self._pilot.length
         self._choice = CourseChoice()
-        length, period = self._pilot.length, inner.control_period
-        self._periods = max(1, round(BETWEEN_CHOICES * length / self._speed / period))
+        self._periods = max(1, round(BETWEEN_CHOICES * length / self._speed / self._pilot.period))
         self._fastest = length / self._pilot.turning_radius(self._speed)
         # In lengths and in times of a length; that of three quarters of the speed stands for all of them.
         self._braking = max(0.0, self._pilot.braking(0.75 * self._speed) * length / self._speed**2)
-        self.reset()
-
-    @classmethod
-    def for_env(cls, env: gym.Env[Any, Any]) -> EncounterController:
-        """Return the controller for an environment's vehicle."""
-        return cls(env)
+        self._chosen, self._until_choice = ON_ROUTE, 0
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
-        self._pilot.reset()
+        super().reset(env)
         self._choice.reset()
-        self._chosen = ON_ROUTE
-        self._until_choice = 0
+        self._chosen, self._until_choice = ON_ROUTE, 0
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""

@@ -64,6 +64,11 @@ def levelled(
     )
 
 
+def no_turn_leads_to(ahead: float, starboard: float, radius: float) -> bool:
+    """Whether a place, in metres from a vehicle along its bow, is within the circle of a turn of a radius [m] there."""
+    return math.hypot(ahead, abs(starboard) - radius) < radius
+
+
 def wrapped(angle: float) -> float:
     """Return an angle within -pi and pi."""
     return math.remainder(angle, 2.0 * math.pi)

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Self
 import gymnasium as gym
 
 from dq_marine.agents.controllers.autopilot import PITCH, YAW, Autopilot, Order, seen
-from dq_marine.agents.controllers.guidance import levelled, wrapped
+from dq_marine.agents.controllers.guidance import levelled, no_turn_leads_to, wrapped
 from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
 from dq_marine.agents.controllers.reading import parts_reader
 from dq_marine.agents.environments import marine
@@ -108,8 +108,8 @@ class WaypointController(Journey):
         distance = math.hypot(ahead, starboard)
         turn = wrapped(math.atan2(starboard, ahead) - attitude.drift_angle)
         share = max(self._slowest, 1.0 - abs(turn) / self._settings.slowing_angle)
-        if math.hypot(ahead, abs(starboard) - self._bend) < self._bend:
-            turn, share = 0.0, 1.0  # no turn leads there: on, until one does
+        if no_turn_leads_to(ahead, starboard, self._bend):
+            turn, share = 0.0, 1.0  # on, until one does
         speed = share * self._speed
         climb = math.atan2(-down, max(distance, self._pilot.length))
         error = speed - attitude.velocity_level[0]

@@ -126,21 +126,25 @@ class CourseChoice:
         """Return the course and the speed of least cost."""
         home, speeds = sight(own.starboard), SPEEDS if own.braking > 0.0 else SPEEDS[:1]
         commands = np.concatenate([[home], self._courses])
-        before = home if self._before.course is None else self._before.course
         off = commands - home
         of_courses = ON_DEVIATION * np.where(off < 0.0, -ON_PORT * off, off)
-        of_changes = ON_CHANGE * np.abs(commands - before)
-        costs = np.zeros((len(speeds), len(commands)))
+        costs = self._of_changes(commands, np.array(speeds))
         for row, speed in zip(costs, speeds, strict=True):
             risk, lasting = self._risk(own, others, speed)
             row += risk + (0.2 + lasting) * (of_courses + ON_SLOWNESS * (1.0 - speed))
-            row += of_changes + ON_SPEED_CHANGE * abs(speed - self._before.speed)
-        costs[0, 0] -= of_changes[0] + ON_SPEED_CHANGE * abs(
-            1.0 - self._before.speed
-        )  # home is free whenever it is
         which, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
         self._before = Choice(None if best == 0 else float(commands[best]), speeds[which])
         return self._before
+
+    def _of_changes(self, commands: Array, speeds: Array) -> Array:
+        """Return the cost of doing another thing than before, of each speed and course, shape (speeds, courses)."""
+        before = commands[0] if self._before.course is None else self._before.course
+        of_speeds = ON_SPEED_CHANGE * np.abs(speeds - self._before.speed)
+        costs: Array = ON_CHANGE * np.abs(commands - before) + of_speeds[:, None]
+        costs[0, 0] = (
+            0.0  # to go back to the route at its speed never costs: as soon as it is free, it is taken
+        )
+        return costs
 
     def _ways(self, own: Own, speed: float) -> tuple[Array, Array]:
         """Return courses over time, shape (1 + courses, times), and speeds, shape (times,).

@@ -1,18 +1,16 @@
 """Two vessels that meet, seen from above: how near they come, and who gives way by the rules of the road at sea.
 
 The rules are those of the Convention on the International Regulations for Preventing Collisions at Sea (COLREG, IMO
-1972), part B, for power-driven vessels in sight of one another. Level vectors are pairs (north, east), or any other
-axes that are turned by 90 degrees clockwise from the first to the second.
+1972), part B, for power-driven vessels in sight of one another.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
+from dq_marine.algebra.level import Level, level_cross, level_dot, level_length, seen_at
 from dq_marine.algebra.selection import select, smallest_normal
-
-Level: TypeAlias = tuple[float, float]
 
 ABAFT = math.radians(112.5)
 """Rule 13: who comes up from more than 22.5 degrees abaft the beam overtakes; sternlights are seen from there [rad]."""
@@ -35,31 +33,6 @@ class Nearest(NamedTuple):
 
     distance: float
     time: float
-
-
-def level_dot(a: Level, b: Level) -> float:
-    """Return the scalar product."""
-    return a[0] * b[0] + a[1] * b[1]
-
-
-def level_cross(a: Level, b: Level) -> float:
-    """Return what is positive where b points to starboard of a: the sine of the angle times both lengths."""
-    return a[0] * b[1] - a[1] * b[0]
-
-
-def level_length(a: Level) -> float:
-    """Return the length of a level vector."""
-    return math.sqrt(a[0] * a[0] + a[1] * a[1])
-
-
-def seen_at(course: Level, offset: Level) -> float:
-    """Return the bearing of a place from the bow [rad]: 0 ahead, pi/2 on the starboard beam, within -pi and pi.
-
-    Args:
-        course: where the vessel heads, of any length.
-        offset: from the vessel to the place [m].
-    """
-    return math.atan2(level_cross(course, offset), level_dot(course, offset))
 
 
 def closest_approach(offset: Level, velocity: Level) -> Nearest:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from dq_marine.algebra.level import level_cross, level_dot
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import Vector3, add, cross, norm, subtract
@@ -85,11 +86,8 @@ def heave_of(dock: Dock) -> tuple[float, float, float]:
 
 def along_dock(dock: Dock, a_ned: Vector3) -> Vector3:
     """Return a vector's components along a dock's axis, to its starboard, and down."""
-    return (
-        dock.north * a_ned[0] + dock.east * a_ned[1],
-        dock.north * a_ned[1] - dock.east * a_ned[0],
-        a_ned[2],
-    )
+    axis, level = (dock.north, dock.east), (a_ned[0], a_ned[1])
+    return (level_dot(axis, level), level_cross(axis, level), a_ned[2])
 
 
 def across(a: Vector3) -> float:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from dq_marine.algebra.level import level_cross, level_dot, level_length
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, scale, subtract
 
 
@@ -52,14 +53,14 @@ def curve_point(curve: Curve, phase: float) -> CurvePoint:
 def level_course(slope_ned: Vector3) -> tuple[Vector3, Vector3]:
     """Return where a curve goes and its starboard, seen from above: two level unit vectors in NED."""
     north, east = slope_ned[0], slope_ned[1]
-    level = math.sqrt(north * north + east * east)
+    level = level_length((north, east))
     return ((north / level, east / level, 0.0), (-east / level, north / level, 0.0))
 
 
 def course_rate(point: CurvePoint, rate: float) -> float:
     """Return how fast the course turns [rad/s], of a point whose phase grows at a rate [rad/s]."""
-    slope, bend = point.slope_ned, point.bend_ned
-    return rate * (slope[0] * bend[1] - slope[1] * bend[0]) / (slope[0] * slope[0] + slope[1] * slope[1])
+    slope, bend = (point.slope_ned[0], point.slope_ned[1]), (point.bend_ned[0], point.bend_ned[1])
+    return rate * level_cross(slope, bend) / level_dot(slope, slope)
 
 
 def moved_to(curve: Curve, phase: float, position_ned: Vector3) -> Curve:

@@ -4,19 +4,12 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.level import Level, level_cross, level_dot, level_length
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import bounded
 from dq_marine.integrator.body import Motion
-from dq_marine.task.colregs import (
-    Level,
-    Nearest,
-    closest_approach,
-    level_cross,
-    level_dot,
-    level_length,
-    sight_turns,
-)
+from dq_marine.task.colregs import Nearest, closest_approach, sight_turns
 from dq_marine.task.common import SPEED_BOUND
 from dq_marine.task.traffic import OtherVessel, moved
 
@@ -100,13 +93,6 @@ def shown(lookout: Lookout, measured: Motion, bow: Level, far: float) -> Any:
     """
     a, b, c = lookout.vessels
     return _shown(a, measured, bow, far), _shown(b, measured, bow, far), _shown(c, measured, bow, far)
-
-
-def level_bow(motion: Motion) -> Level:
-    """Return where the bow points, seen from above: a unit vector, or 0 for a vehicle that stands upright."""
-    bow = rotate(motion.attitude, (1.0, 0.0, 0.0))
-    length = max(1e-9, level_length((bow[0], bow[1])))
-    return (bow[0] / length, bow[1] / length)
 
 
 def along_route(course: Level, motion: Motion) -> Level:

@@ -49,6 +49,12 @@ def slow_start(
     return Start(add_scaled(center_ned, distance, direction), attitude, velocity)
 
 
+def under_way(position_ned: Vector3, heading: float, speed: float) -> Start:
+    """Return a start at a place [m] that goes straight ahead on the level: heading [rad], speed over ground [m/s]."""
+    attitude = quaternion_from_euler(0.0, 0.0, heading)
+    return Start(position_ned, attitude, Spatial((0.0, 0.0, 0.0), (speed, 0.0, 0.0)))
+
+
 def symmetric3(uniforms: tuple[float, ...], first: int) -> Vector3:
     """Return three numbers in [-1, 1) of three in [0, 1)."""
     return (

@@ -13,8 +13,9 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.level import Level, level_turned
 from dq_marine.algebra.selection import select
-from dq_marine.task.colregs import Level, gives_way, leaves_to_port, meeting
+from dq_marine.task.colregs import gives_way, leaves_to_port, meeting
 from dq_marine.task.common import make_pick
 
 SLOTS = 3
@@ -74,12 +75,6 @@ class Own(NamedTuple):
     way: float
 
 
-def turned(course: Level, heading: float) -> Level:
-    """Return a course that is turned to starboard by an angle [rad]."""
-    c, s = math.cos(heading), math.sin(heading)
-    return (c * course[0] - s * course[1], s * course[0] + c * course[1])
-
-
 def met(own: Own, heading: float, ratio: float, when: float, miss: float, present: float) -> OtherVessel:
     """Return a vessel that is met; see (1).
 
@@ -91,7 +86,7 @@ def met(own: Own, heading: float, ratio: float, when: float, miss: float, presen
         miss: m [m].
         present: 1, or 0 for a slot without a vessel, which is far away and stands still.
     """
-    course = turned(own.course, heading)
+    course = level_turned(own.course, heading)
     way, across = when * own.way, (-course[1], course[0])
     place = (
         way * (own.course[0] - ratio * course[0]) + miss * across[0],

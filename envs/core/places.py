@@ -47,6 +47,16 @@ def goal_place(name: str, value: Any, vehicle: Vehicle) -> NDArray[np.float64]:
     return place
 
 
+def starting_depth(vehicle: Vehicle, least: float) -> float:
+    """Return at what depth of its body origin a vehicle starts [m]: at rest if it floats, else where there is room.
+
+    Room is ten lengths below the surface, and `least` or more [m].
+    """
+    if vehicle.hydrostatics is not None:
+        return vehicle.equilibrium_depth
+    return max(least, 10.0 * vehicle.dimensions.length)
+
+
 def highest_goal(vehicle: Vehicle) -> float:
     """Return the least depth of the body origin at which a vehicle can be told to be [m].
 

@@ -6,17 +6,18 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.euler import quaternion_from_euler
+from dq_marine.algebra.level import seen_at
 from dq_marine.algebra.quaternion import rotate, rotate_inverse
 from dq_marine.algebra.selection import select, spread
-from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import bounded, bounded_vector
 from dq_marine.checks import finite_number
+from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_dive_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.starts import under_way
 
 STEPS, STEP_DRAWS = 3, 3  # orders in an episode, and random numbers for each
 PERIODS = 300  # control periods of each order
@@ -102,15 +103,14 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
         max(1.0, length) * settings.depth_step,
         math.radians(settings.heading_step),
         cruise * settings.speed_step,
-        max(FIRST_DEPTH, 10.0 * length),
+        starting_depth(context.vehicle, FIRST_DEPTH),
         context.control_period,
     )
 
 
 def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     """Return a start under way, level, at any heading."""
-    attitude = quaternion_from_euler(0.0, 0.0, 2.0 * math.pi * uniforms[0])
-    return Start((0.0, 0.0, own.depth), attitude, Spatial((0.0, 0.0, 0.0), (own.speed, 0.0, 0.0)))
+    return under_way((0.0, 0.0, own.depth), 2.0 * math.pi * uniforms[0], own.speed)
 
 
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
@@ -135,8 +135,7 @@ def drawn_order(
 def errors(order: Order, motion: Motion) -> tuple[float, float, float]:
     """Return how much deeper [m], further to starboard [rad] and faster [m/s] a vehicle should be."""
     bow = rotate(motion.attitude, (1.0, 0.0, 0.0))
-    along, across = bow[0] * order.north + bow[1] * order.east, bow[0] * order.east - bow[1] * order.north
-    turn = math.atan2(across, along)
+    turn = seen_at((bow[0], bow[1]), (order.north, order.east))
     return (order.depth - motion.position_ned[2], turn, order.speed - motion.velocity.linear[0])
 
 

@@ -6,23 +6,22 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.quaternion import rotate_inverse
-from dq_marine.algebra.selection import spread
-from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import bounded_vector, norm, subtract
 from dq_marine.checks import finite_number
+from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import (
     cruising_speed,
     paced,
     steers_only_under_way,
     unable_to_dive_under_way,
 )
-from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
+from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along, spread
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.docks import Contact, Dock, Funnel, Limits, across, approach, contact, heave_of, later
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.starts import under_way
 
 THROAT, LEAST_THROAT = 0.1, 0.1  # radius of the throat [lengths, but at least m]
 CONE, FLARE = 1.0, math.radians(20.0)  # length of the funnel [lengths], angle of its wall (1)
@@ -109,13 +108,19 @@ class Rewards(NamedTuple):
     effort: float = 0.02
 
 
+def starting_distance(settings: Any, vehicle: Any) -> float:
+    """Return how far from the dock a vehicle starts [m]."""
+    farther = FARTHER if steers_only_under_way(vehicle) else 1.0
+    return float(farther * vehicle.dimensions.length * settings.distance)
+
+
 def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
     vehicle, length = context.vehicle, context.vehicle.dimensions.length
-    farther, narrower = (FARTHER, 1.0 / FARTHER) if steers_only_under_way(vehicle) else (1.0, 1.0)
-    throat, depth = max(LEAST_THROAT, THROAT * length), max(LEAST_DEPTH, 10.0 * length)
+    narrower = 1.0 / FARTHER if steers_only_under_way(vehicle) else 1.0
+    throat, depth = max(LEAST_THROAT, THROAT * length), starting_depth(vehicle, LEAST_DEPTH)
     return Parameters(
-        farther * length * settings.distance,
+        starting_distance(settings, vehicle),
         narrower * math.radians(settings.angle),
         cruising_speed(vehicle) if steers_only_under_way(vehicle) else 0.0,
         0.5 * length,
@@ -133,11 +138,8 @@ def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     slope = 0.5 * own.angle * (2.0 * uniforms[2] - 1.0)
     level, below = own.distance * math.cos(slope), own.distance * math.sin(slope)
     heading = bearing + START_TURN * (2.0 * uniforms[3] - 1.0)
-    return Start(
-        (-level * math.cos(bearing), -level * math.sin(bearing), own.dock.depth + below),
-        quaternion_from_euler(0.0, 0.0, heading),
-        Spatial((0.0, 0.0, 0.0), (own.speed, 0.0, 0.0)),
-    )
+    place = (-level * math.cos(bearing), -level * math.sin(bearing), own.dock.depth + below)
+    return under_way(place, heading, own.speed)
 
 
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
@@ -176,8 +178,7 @@ def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
 
 def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     """Return what an observation consists of: all in the body frame."""
-    length = vehicle.dimensions.length
-    far = 2.0 * LOST * length * settings.distance * (FARTHER if steers_only_under_way(vehicle) else 1.0)
+    far = 2.0 * LOST * starting_distance(settings, vehicle)
     return (
         Observed("goal_position_body", "m", 3, far, "where the vehicle's origin is when docked"),
         Observed("goal_x_axis_body", "", 3, 1.0, "where the bow points then"),

@@ -26,6 +26,7 @@ from dq_marine.envs.kit import (
     quaternion_from_euler,
     rotate,
     rotate_inverse,
+    seen_at,
     select,
     subtract,
     unable_to_position,
@@ -162,8 +163,7 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
 def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
     """Return how far off place and heading are."""
     bow = rotate(motion.attitude, (1.0, 0.0, 0.0))
-    c, s = math.cos(memory.heading), math.sin(memory.heading)
-    off = math.atan2(c * bow[1] - s * bow[0], c * bow[0] + s * bow[1])
+    off = seen_at((math.cos(memory.heading), math.sin(memory.heading)), (bow[0], bow[1]))
     return Metrics(norm(to_place(own, motion)), abs(off))
 
 

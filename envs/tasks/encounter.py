@@ -6,17 +6,16 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.euler import quaternion_from_euler
+from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, level_length
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select
-from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import bounded, bounded_vector
 from dq_marine.checks import finite_number, whole_number
 from dq_marine.envs.core.observed import vessels_shown
+from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_sail
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task
 from dq_marine.integrator.body import Motion
-from dq_marine.task.colregs import Level, level_cross, level_dot, level_length
 from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.imazu import IMAZU_CASES
 from dq_marine.task.lookout import (
@@ -26,13 +25,13 @@ from dq_marine.task.lookout import (
     crowding,
     first_lookout,
     least_distance,
-    level_bow,
     lookout_kept,
     next_approach,
     shown,
     wrong_sides,
 )
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.starts import under_way
 from dq_marine.task.traffic import DEGREE, SLOTS, TRAFFIC_DRAWS, Own, traffic
 
 GATE = 3.0  # success: at the end of the route, within this of it [lengths]
@@ -129,7 +128,7 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
         cruising_speed(vehicle),
         length,
         length * settings.approach,
-        vehicle.equilibrium_depth if vehicle.hydrostatics else 10.0 * length,
+        starting_depth(vehicle, 0.0),
         length * settings.safe_distance,
         context.control_period,
         float(settings.vessels),
@@ -140,8 +139,7 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
 
 def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     """Return a start at the beginning of the route, under way along it."""
-    attitude = quaternion_from_euler(0.0, 0.0, math.tau * uniforms[0])
-    return Start((0.0, 0.0, own.depth), attitude, Spatial((0.0, 0.0, 0.0), (own.speed, 0.0, 0.0)))
+    return under_way((0.0, 0.0, own.depth), math.tau * uniforms[0], own.speed)
 
 
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
@@ -162,7 +160,7 @@ def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Mot
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
     """Return what `observations` lists."""
     along, starboard = along_route(memory.course, measured)
-    bow, far = level_bow(measured), FAR * own.way
+    bow, far = level_bow(measured.attitude), FAR * own.way
     return (
         bounded(starboard, far),
         bounded(2.0 * own.way - along, far),

@@ -6,17 +6,17 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.quaternion import rotate, rotate_inverse
 from dq_marine.algebra.selection import select
-from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import Vector3, bounded, bounded_vector, norm, scale, subtract
 from dq_marine.checks import finite_number
+from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_travel
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.starts import under_way
 from dq_marine.task.world.beams import FORWARD, fan_bearings, make_errors, make_fan, make_readings
 from dq_marine.task.world.pillars import (
     Hull,
@@ -118,7 +118,7 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     vehicle, size, speed = context.vehicle, context.vehicle.dimensions, cruising_speed(context.vehicle)
     return Parameters(
         settings.spacing * size.length,
-        max(LEAST_DEPTH, 10.0 * size.length) if vehicle.hydrostatics is None else vehicle.equilibrium_depth,
+        starting_depth(vehicle, LEAST_DEPTH),
         speed,
         speed * settings.pillar_speed,
         settings.reach * size.length,
@@ -133,8 +133,7 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
 def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     """Return a start at the origin, under way about towards the goal at half the speed or more."""
     heading = 2.0 * math.pi * uniforms[0] + START_TURN * (2.0 * uniforms[1] - 1.0)
-    velocity = Spatial((0.0, 0.0, 0.0), (own.speed * (0.5 + 0.5 * uniforms[2]), 0.0, 0.0))
-    return Start((0.0, 0.0, own.depth), quaternion_from_euler(0.0, 0.0, heading), velocity)
+    return under_way((0.0, 0.0, own.depth), heading, own.speed * (0.5 + 0.5 * uniforms[2]))
 
 
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:

@@ -6,18 +6,18 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
-from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import bounded, bounded_vector, scale
 from dq_marine.checks import finite_number
+from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_travel
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.splines import beside, curvature, make_spline, make_winding, winding_draws
+from dq_marine.task.starts import under_way
 
 SPANS = 4  # of the path, about a leg each
 (point_at, nearer), wind = make_spline(SPANS), make_winding(SPANS)
@@ -113,7 +113,7 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
         max(length * settings.leg, settings.speed * LEG_TIME),
         math.radians(settings.turn),
         math.radians(settings.climb),
-        max(LEAST_DEPTH, 10.0 * length) if vehicle.hydrostatics is None else vehicle.equilibrium_depth,
+        starting_depth(vehicle, LEAST_DEPTH),
         length,
         max(LEAST, CORRIDOR * length),
         context.control_period,
@@ -125,11 +125,7 @@ def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     course, speed = 2.0 * math.pi * uniforms[START_DRAWS], own.speed * (0.5 + 0.5 * uniforms[2])
     offset = START_OFFSET * own.length * (2.0 * uniforms[0] - 1.0)
     heading = course + START_TURN * (2.0 * uniforms[1] - 1.0)
-    return Start(
-        (-offset * math.sin(course), offset * math.cos(course), own.depth),
-        quaternion_from_euler(0.0, 0.0, heading),
-        Spatial((0.0, 0.0, 0.0), (speed, 0.0, 0.0)),
-    )
+    return under_way((-offset * math.sin(course), offset * math.cos(course), own.depth), heading, speed)
 
 
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:

@@ -38,6 +38,7 @@ from dq_marine.envs.kit import (
     one_of,
     rotate,
     rotate_inverse,
+    seen_at,
     select,
     shaped_curve,
     slow_start,
@@ -159,12 +160,10 @@ def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Mot
 
 def errors(point: CurvePoint, motion: Motion) -> Metrics:
     """Return distance to the point and angle to its course."""
-    ahead, starboard = level_course(point.slope_ned)
+    ahead, _ = level_course(point.slope_ned)
     bow = rotate(motion.attitude, (1.0, 0.0, 0.0))
-    along = bow[0] * ahead[0] + bow[1] * ahead[1]
-    across = bow[0] * starboard[0] + bow[1] * starboard[1]
     distance = norm(subtract(point.position_ned, motion.position_ned))
-    return Metrics(distance, abs(math.atan2(across, along)))
+    return Metrics(distance, abs(seen_at((ahead[0], ahead[1]), (bow[0], bow[1]))))
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:

@@ -6,10 +6,10 @@ closed forms are those of Hart 1996, "Sphere tracing", The Visual Computer 12, 5
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
+from dq_marine.algebra.level import level_length
 from dq_marine.algebra.selection import smallest_normal
 from dq_marine.algebra.vector3 import Vector3, add_scaled, dot, norm, subtract
 
@@ -26,8 +26,7 @@ def plane_distance(point: Vector3, normal: Vector3, offset: float) -> float:
 
 def pillar_distance(point: Vector3, north: float, east: float, radius: float) -> float:
     """Return the distance to a vertical cylinder without ends."""
-    x, y = point[0] - north, point[1] - east
-    return math.sqrt(x * x + y * y) - radius
+    return level_length((point[0] - north, point[1] - east)) - radius
 
 
 def box_distance(point: Vector3, center: Vector3, half_size: Vector3) -> float:

@@ -6,7 +6,8 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.quaternion import Quaternion, rotate
+from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, level_length, level_turned
+from dq_marine.algebra.quaternion import Quaternion
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.task.world.rays import ray_to_pillar
@@ -39,12 +40,10 @@ class Hull(NamedTuple):
 
 
 class Footprint(NamedTuple):
-    """Where a hull is, and the level unit vector that its bow points along."""
+    """Where a hull is [m], and the unit vector that its bow points along, seen from above."""
 
-    north: float
-    east: float
-    ahead_north: float
-    ahead_east: float
+    place: Level
+    bow: Level
 
 
 class Nearest(NamedTuple):
@@ -57,18 +56,14 @@ class Nearest(NamedTuple):
 
 def footprint(position_ned: Vector3, attitude: Quaternion) -> Footprint:
     """Return what is seen of a vehicle from above; of one that stands on end, a point is all there is."""
-    bow = rotate(attitude, (1.0, 0.0, 0.0))
-    level = max(math.sqrt(bow[0] * bow[0] + bow[1] * bow[1]), 1e-9)
-    return Footprint(position_ned[0], position_ned[1], bow[0] / level, bow[1] / level)
+    return Footprint((position_ned[0], position_ned[1]), level_bow(attitude))
 
 
-def clearance(pillar: Pillar, place: Footprint, hull: Hull) -> float:
+def clearance(pillar: Pillar, own: Footprint, hull: Hull) -> float:
     """Return how far a hull's side is from a pillar's [m]; less than 0 where they overlap."""
-    north, east = pillar.north - place.north, pillar.east - place.east
-    ahead = place.ahead_north * north + place.ahead_east * east
-    aside = place.ahead_north * east - place.ahead_east * north
-    beyond = max(abs(ahead) - max(hull.half_length - hull.half_beam, 0.0), 0.0)
-    return math.sqrt(beyond * beyond + aside * aside) - hull.half_beam - pillar.radius
+    offset = (pillar.north - own.place[0], pillar.east - own.place[1])
+    beyond = max(abs(level_dot(own.bow, offset)) - max(hull.half_length - hull.half_beam, 0.0), 0.0)
+    return level_length((beyond, level_cross(own.bow, offset))) - hull.half_beam - pillar.radius
 
 
 def make_nearest(count: int, first: int = 0) -> Callable[[Any, Footprint, Hull], Nearest]:
@@ -136,22 +131,15 @@ def _make_field_from(rows: int, columns: int, number: int) -> Callable[..., Any]
     shift, own = row * (1 + columns * PILLAR_DRAWS), 1 + column * PILLAR_DRAWS
 
     def one(course: float, spacing: float, speed: float, uniforms: tuple[float, ...], index: int) -> Any:
-        at, c, s = index + shift + own, math.cos(course), math.sin(course)
+        at = index + shift + own
         ahead = spacing * (along + SCATTER[0] * (2.0 * uniforms[at] - 1.0))
         aside = spacing * (
             across + uniforms[index + shift] - 0.5 + SCATTER[1] * (2.0 * uniforms[at + 1] - 1.0)
         )
         radius = spacing * (THICKNESS[0] + (THICKNESS[1] - THICKNESS[0]) * uniforms[at + 2])
         way, pace = 2.0 * math.pi * uniforms[at + 3], moving * speed * uniforms[at + 4]
-        return (
-            Pillar(
-                c * ahead - s * aside,
-                s * ahead + c * aside,
-                radius,
-                pace * math.cos(way),
-                pace * math.sin(way),
-            ),
-        )
+        north, east = level_turned((ahead, aside), course)
+        return (Pillar(north, east, radius, pace * math.cos(way), pace * math.sin(way)),)
 
     if number == rows * columns - 1:
         return one

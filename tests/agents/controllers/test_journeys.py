@@ -9,7 +9,13 @@ import pytest
 
 from dq_marine.agents.controllers.autopilot import RateLoop
 from dq_marine.agents.controllers.baselines import controller_for
-from dq_marine.agents.controllers.guidance import AdaptiveSight, level_angles, levelled, wrapped
+from dq_marine.agents.controllers.guidance import (
+    AdaptiveSight,
+    level_angles,
+    levelled,
+    no_turn_leads_to,
+    wrapped,
+)
 from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.quaternion import rotate, rotate_inverse
 from dq_marine.envs.core.suitability import cruising_speed, paced, speed_ahead
@@ -85,6 +91,22 @@ def test_down_tells_roll_and_pitch_and_levels_vectors(roll, pitch, heading):
     assert level_angles(rotate_inverse(attitude, (0.0, 0.0, 1.0))) == pytest.approx((roll, pitch))
     found = levelled(rotate_inverse(attitude, vector_ned), roll, pitch)
     assert rotate(level, found) == pytest.approx(vector_ned)
+
+
+@pytest.mark.parametrize("radius", [0.5, 3.0])
+def test_no_turn_leads_to_a_place_that_lies_to_one_side_of_all_that_leave_the_circle(radius):
+    """Whoever leaves a turn goes straight on from there: where that may lead, some place on the turn points to."""
+    turned = np.linspace(0.0, 2.0 * math.pi, 2001)
+    left = radius * np.array([np.sin(turned), 1.0 - np.cos(turned)])
+    rng = np.random.default_rng(3)
+    found = set()
+    for ahead, starboard in rng.uniform(-3.0 * radius, 3.0 * radius, (200, 2)):
+        to_place = np.array([[ahead], [abs(starboard)]]) - left
+        beside = np.cos(turned) * to_place[1] - np.sin(turned) * to_place[0]
+        if abs(beside).min() > 1e-3 * radius or (beside < 0.0).any():
+            found.add(no_turn_leads_to(ahead, starboard, radius))
+            assert no_turn_leads_to(ahead, starboard, radius) == (beside > 0.0).all()
+    assert found == {True, False}
 
 
 def test_angles_are_wrapped():

@@ -7,7 +7,7 @@ from support.environments import StationKeepingEnv
 from support.equivalence import same
 
 import dq_marine
-from dq_marine.envs.core.places import FARTHEST
+from dq_marine.envs.core.places import FARTHEST, starting_depth
 from dq_marine.errors import InvalidInputError
 
 ID = "dq_marine/StationKeeping-v0"
@@ -84,3 +84,15 @@ def test_the_current_of_an_episode_is_water():
     env = StationKeepingEnv(current=0.3)
     with pytest.raises(InvalidInputError, match=r"options\['current'\] has 50 m/s; give at most 20 m/s"):
         env.reset(options={"current": (50.0, 0.0, 0.0)})
+
+
+@pytest.mark.parametrize("name", dq_marine.vehicle_names())
+def test_vehicles_start_with_room_above_them_or_at_rest(name):
+    """Wherever they start, what holds them up is their weight, or nothing of them is near the surface."""
+    vehicle = dq_marine.load_vehicle(name)
+    depth = starting_depth(vehicle, 7.0)
+    if vehicle.hydrostatics is not None:
+        assert depth == vehicle.equilibrium_depth
+    else:
+        assert depth >= 7.0
+        assert depth - vehicle.dimensions.height >= 9.0 * vehicle.dimensions.length
