@@ -48,6 +48,7 @@ from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, make_pick, observed_curve_motion, observed_velocity
 from dq_marine.task.harmonics import Curve, CurvePoint, curve_point, level_course, moved_to
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.scenery import harmonics_seen
 from dq_marine.task.shapes import SHAPE_DRAWS, SHAPES, STEEPEST, shaped_curve
 from dq_marine.task.splines import beside, curvature, make_spline, make_winding, path_axes, winding_draws
 from dq_marine.task.starts import SLOW_START_DRAWS, make_walk, slow_start, symmetric3
@@ -87,6 +88,7 @@ __all__ = [
     "finite_number",
     "goal_along",
     "goal_place",
+    "harmonics_seen",
     "level_course",
     "make_pick",
     "make_spline",

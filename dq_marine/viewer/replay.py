@@ -91,8 +91,10 @@ def _checked_times(snapshots: Sequence[Snapshot]) -> FloatArray:
 
 def _messages(snapshots: Sequence[Snapshot], times: FloatArray, drawing: Drawing) -> list[Message]:
     """Everything the page has to do: draw, place, animate."""
-    frames = [drawing.placements(snapshot) for snapshot in snapshots]
     messages = drawing.scenery(snapshots[0])
+    for snapshot in snapshots:
+        messages += drawing.appear(snapshot)
+    frames = [drawing.placements(snapshot) for snapshot in snapshots]
     messages.append(draw_trail(np.array([snapshot.position_ned for snapshot in snapshots])))
     messages += [set_transform(path, placement) for path, placement in frames[0].items()]
     clips = [

@@ -13,8 +13,9 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.checks import finite_array, unit_quaternion
+from dq_marine.checks import finite_array, shown, unit_quaternion
 from dq_marine.errors import InvalidInputError
+from dq_marine.task.things import Form, Thing
 
 FloatArray = NDArray[np.float64]
 ShapeKind = Literal["open_frame", "torpedo", "ellipsoid", "catamaran", "ship"]
@@ -44,6 +45,7 @@ class Snapshot:
         current_ned: velocity of the water [m/s], shape (3,).
         goal_position_ned: where the vehicle should go [m], shape (3,), or None without a goal.
         goal_quaternion_body_to_ned: the attitude wanted there, shape (4,), or None for any attitude.
+        things: what is around the vehicle.
 
     Raises:
         InvalidInputError: a wrong size, a value that is not finite, or a quaternion that is not unit.
@@ -56,6 +58,7 @@ class Snapshot:
     current_ned: FloatArray
     goal_position_ned: FloatArray | None = None
     goal_quaternion_body_to_ned: FloatArray | None = None
+    things: tuple[Thing, ...] = ()
 
     def __post_init__(self) -> None:
         if not math.isfinite(self.time):
@@ -66,6 +69,13 @@ class Snapshot:
                 continue
             checked = unit_quaternion(name, value) if size == 4 else finite_array(name, value, size)
             _set_read_only(self, name, checked)
+        for number, thing in enumerate(self.things):
+            if not isinstance(thing, Thing) or not isinstance(thing.form, Form):
+                raise InvalidInputError(
+                    f"things[{number}] is {shown(thing)}; give a dq_marine.task.things.Thing"
+                )
+            finite_array(f"things[{number}].position_ned", thing.position_ned, 3)
+            unit_quaternion(f"things[{number}].attitude", thing.attitude)
 
 
 def at_rest(depth: float) -> Snapshot:

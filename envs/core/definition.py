@@ -16,6 +16,7 @@ from dq_marine.algebra.vector3 import Vector3
 from dq_marine.checks import finite_number, one_of, shown
 from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.task.protocol import Task
+from dq_marine.task.things import Thing
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
@@ -94,6 +95,11 @@ def no_goal(parameters: Any, memory: Any) -> Goal | None:
     return None
 
 
+def nothing_around(parameters: Any, memory: Any) -> Sequence[Thing]:
+    """Return that there is nothing around the vehicle to draw."""
+    return ()
+
+
 def suits_all(vehicle: Vehicle) -> str | None:
     """Return that any vehicle can do the task."""
     return None
@@ -118,6 +124,7 @@ class TaskDefinition:
         units: of the metrics, by name; for angles in radians "rad".
         tolerances: of some metrics: an episode is settled from when on all of them stay within.
         goal: (parameters, memory) -> the goal to be drawn.
+        scenery: (parameters, memory) -> what is around the vehicle, to be drawn.
         goal_reward: (parameters, weights, achieved goal, desired goal) -> the term `goal` of the reward, with its
             weight, of a task whose observation has goals among its parts: for `compute_reward` and hindsight replay.
         levels: of difficulty, by name, the easiest first: keywords of the task and of `dq_marine.Settings`.
@@ -142,6 +149,7 @@ class TaskDefinition:
     units: Mapping[str, str] = field(default_factory=dict)
     tolerances: Mapping[str, float] = field(default_factory=dict)
     goal: Callable[[Any, Any], Goal | None] = no_goal
+    scenery: Callable[[Any, Any], Sequence[Thing]] = nothing_around
     goal_reward: Callable[[Any, Any, Any, Any], float] | None = None
     levels: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     unsuitable: Callable[[Vehicle], str | None] = suits_all

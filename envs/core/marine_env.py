@@ -319,6 +319,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             current_ned=episode.current_ned,
             goal_position_ned=None if goal is None else np.array(goal.position_ned),
             goal_quaternion_body_to_ned=None if goal is None else np.array(goal.attitude),
+            things=tuple(self.definition.scenery(parameters.task, memory)),
         )
 
     def __setstate__(self, state: dict[str, Any]) -> None:

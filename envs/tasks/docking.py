@@ -21,6 +21,7 @@ from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.docks import Contact, Dock, Funnel, Limits, across, approach, contact, heave_of, later
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.scenery import dock_seen
 from dq_marine.task.starts import under_way
 
 THROAT, LEAST_THROAT = 0.1, 0.1  # radius of the throat [lengths, but at least m]
@@ -235,6 +236,7 @@ define_task(
     id="dq_marine/Docking-v0",
     summary="Bring the bow through a funnel into a dock that heaves, slowly enough, in an unseen current.",
     draws=START_DRAWS,
+    scenery=lambda own, memory: dock_seen(memory.dock, own.funnel),
     units={"distance": "m", "cross_error": "m", "angle_error": "rad", "impact_speed": "m/s"},
     levels={
         "easy": {"heave": 0.0, "angle": 20.0, "current": 0.0},

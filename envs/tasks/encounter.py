@@ -31,6 +31,7 @@ from dq_marine.task.lookout import (
     wrong_sides,
 )
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.scenery import vessels_seen
 from dq_marine.task.starts import under_way
 from dq_marine.task.traffic import DEGREE, SLOTS, TRAFFIC_DRAWS, Own, traffic
 
@@ -234,6 +235,7 @@ define_task(
     id="dq_marine/Encounter-v0",
     summary="Meet up to three vessels by the rules of the road, and go on along the route.",
     draws=1 + TRAFFIC_DRAWS,
+    scenery=lambda own, memory: vessels_seen(memory.lookout.vessels, own.length),
     units={"least_distance": "m", "cpa_distance": "m", "cpa_time": "s", "goal_distance": "m"},
     levels={
         "easy": {"vessels": 1, "current": 0.0},

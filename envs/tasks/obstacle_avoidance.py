@@ -16,6 +16,7 @@ from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.scenery import pillars_seen
 from dq_marine.task.starts import under_way
 from dq_marine.task.world.beams import FORWARD, fan_bearings, make_errors, make_fan, make_readings
 from dq_marine.task.world.pillars import (
@@ -236,6 +237,7 @@ define_task(
     summary="Reach a goal beyond a field of pillars that beams tell of, in an unseen current.",
     draws=START_DRAWS + field_draws(ROWS, COLUMNS),
     sense_draws=BEAMS,
+    scenery=lambda own, memory: pillars_seen(memory.pillars, own.depth, 2.0 * own.hull.half_length),
     units={"goal_distance": "m", "clearance": "m", "impact_speed": "m/s"},
     levels={
         "easy": {"spacing": 8.0, "noise": 0.0, "dropout": 0.0, "current": 0.0},

@@ -16,6 +16,7 @@ from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.scenery import curve_seen
 from dq_marine.task.splines import beside, curvature, make_spline, make_winding, winding_draws
 from dq_marine.task.starts import under_way
 
@@ -212,6 +213,11 @@ def succeeded(own: Parameters, now: Situation) -> Any:
 def terminated(own: Parameters, now: Situation) -> Any:
     """Whether the end is reached, or the path is lost."""
     return (now.memory.parameter >= SPANS) | (now.metrics.cross_track_error > LOST * own.length)
+
+
+def scenery(own: Parameters, memory: Memory) -> Any:
+    """Return the path, for drawing."""
+    return curve_seen(lambda s: point_at(memory.controls, s).position_ned, float(SPANS), 0.04 * own.length)
 
 
 def goal(own: Parameters, memory: Memory) -> Goal:

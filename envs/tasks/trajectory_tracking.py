@@ -30,6 +30,7 @@ from dq_marine.envs.kit import (
     effort,
     finite_number,
     goal_along,
+    harmonics_seen,
     level_course,
     moved_to,
     norm,
@@ -50,8 +51,7 @@ from dq_marine.envs.kit import (
 DRAWN = "drawn"  # for a shape: another one in each episode
 SHORT_VEHICLE = 1.0  # [m]: tolerances and starts grow with the length of longer vehicles
 POSITION, HEADING, HELD = 0.2, math.radians(10.0), 5.0  # success: within these for that long [m, rad, s]
-START_RADIUS, LOST = 1.0, 5.0  # starts are within the one of the point, episodes end beyond the other [m]
-DEPTH = 10.0  # of starts of vehicles that do not float [m]
+START_RADIUS, LOST, DEPTH = 1.0, 5.0, 10.0  # starts: from the point, depth; episodes end beyond `LOST` [m]
 AHEAD = (1.0, 2.0)  # how far ahead of the point its way is shown [s]
 INTEGRAL_BOUND = 20.0  # of the position error along each NED axis [m s]
 
@@ -237,6 +237,7 @@ define_task(
     id="dq_marine/TrajectoryTracking-v0",
     summary="Be where a point is that runs along a curve, heading the way it goes, in an unseen current.",
     draws=SLOW_START_DRAWS + 1 + SHAPE_DRAWS,
+    scenery=lambda own, memory: harmonics_seen(memory.curve, 0.04 * own.size),
     units={"position_error": "m", "heading_error": "rad"},
     tolerances={"position_error": POSITION, "heading_error": HEADING},
     levels={

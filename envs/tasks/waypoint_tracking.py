@@ -13,6 +13,7 @@ from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import effort, make_pick, observed_velocity
 from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.scenery import line_seen
 from dq_marine.task.starts import SLOW_START_DRAWS, make_walk, slow_start
 
 WAYPOINTS, FIRST_DEPTH = 4, 20.0  # number, and depth of starts of vehicles that do not float [m]
@@ -132,6 +133,11 @@ def succeeded(own: Parameters, now: Situation) -> Any:
 def terminated(own: Parameters, now: Situation) -> Any:
     """Whether all waypoints are reached, or the next one is out of reach."""
     return succeeded(own, now) | (now.memory.distance > 3.0 * own.step[0])
+
+
+def scenery(own: Parameters, memory: Memory) -> Any:
+    """Return straight lines from waypoint to waypoint, for drawing."""
+    return line_seen(memory.waypoints, 0.1 * own.capture_radius)
 
 
 def goal(own: Parameters, memory: Memory) -> Goal:

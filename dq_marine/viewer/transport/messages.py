@@ -49,6 +49,11 @@ def set_transform(path: str, placement: Placement) -> Message:
     return Message("set_transform", path, {"matrix": placement.matrix_by_columns()})
 
 
+def delete(path: str) -> Message:
+    """Take away everything under `path`."""
+    return Message("delete", path)
+
+
 def set_property(path: str, name: str, value: Any) -> Message:
     """Set a property of the three.js object at `path`."""
     return Message("set_property", path, {"property": name, "value": value})

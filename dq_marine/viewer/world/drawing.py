@@ -9,6 +9,7 @@ Everything hangs under `/world`, whose frame is NED:
 | `/world/thrust`, `/world/current/...` | arrows of the applied force and of the water's motion |
 | `/world/trail` | past positions |
 | `/world/floor/...`, `/world/surface`, `/world/specks`, `/world/shadow` | the sea |
+| `/world/things/...` | what is around the vehicle: pillars, vessels, docks, pipes |
 | `/world/clock` | nothing to see: its x is the simulated time [s], which the page displays |
 """
 
@@ -18,6 +19,7 @@ import math
 from collections.abc import Sequence
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.task.things import Relief
 from dq_marine.viewer.models.vehicle_model import (
     GOAL_BALL,
     GOAL_GHOST,
@@ -53,6 +55,7 @@ from dq_marine.viewer.world.sea import (
     draw_surface,
     nearest_period,
 )
+from dq_marine.viewer.world.things import Things
 from dq_marine.viewer.world.water import draw_water, surroundings_of
 
 WORLD = "/world"
@@ -83,11 +86,13 @@ class Drawing:
         self._view = LeashedView(LEASH_IN_LENGTHS * shape.length)
         self._given_floor_depth = floor_depth
         self._floor_depth: float | None = None
+        self._things = Things()
 
-    def restart(self) -> None:
-        """Forget the previous episode."""
+    def restart(self) -> list[Message]:
+        """Forget the previous episode, and take away what was around the vehicle."""
         self._view.restart()
         self._floor_depth = None
+        return self._things.forget()
 
     def scenery(self, first: Snapshot) -> list[Message]:
         """Everything there is to draw, before it is placed; sent once."""
@@ -104,6 +109,10 @@ class Drawing:
             *place_camera(first, self._shape, scale.sight),
         ]
 
+    def appear(self, snapshot: Snapshot) -> list[Message]:
+        """Draw what is around the vehicle at a snapshot and has not been drawn; before its placements."""
+        return self._things.appear(snapshot)
+
     def placements(self, snapshot: Snapshot) -> dict[str, Placement]:
         """Where everything that can move stands at a snapshot, by path."""
         position = snapshot.position_ned
@@ -116,6 +125,7 @@ class Drawing:
             THRUST: thrust_placement(snapshot, self._shape, pose.rotation_matrix()),
             CLOCK: Placement((snapshot.time, 0.0, 0.0)),
             **_goal_placements(snapshot),
+            **self._things.placements(snapshot),
             **current_placements(snapshot, self._shape),
             **self._sea_placements(snapshot, anchor),
         }
@@ -150,8 +160,14 @@ def floor_below(snapshots: Sequence[Snapshot], shape: Shape) -> float:
     """A depth for the sea floor [m], some way below everything the snapshots tell of."""
     places = [snapshot.position_ned for snapshot in snapshots]
     places += [s.goal_position_ned for s in snapshots if s.goal_position_ned is not None]
-    deepest = max(float(place[2]) for place in places)
+    deepest = max([*(float(place[2]) for place in places), *map(_bottom, snapshots)])
     return max(deepest, 0.0) + CLEARANCE_IN_LENGTHS * shape.size
+
+
+def _bottom(snapshot: Snapshot) -> float:
+    """The greatest depth of the seabeds in a snapshot [m], or 0."""
+    depths = [max(thing.form.depths) for thing in snapshot.things if isinstance(thing.form, Relief)]
+    return max(depths, default=0.0)
 
 
 def checked_floor_depth(depth: float | None) -> float | None:

@@ -33,7 +33,8 @@ class Stage:
 
     def restart(self) -> None:
         """Forget the past: the next snapshot begins a new episode."""
-        self._drawing.restart()
+        for message in self._drawing.restart():
+            self._server.send(message)
         self._trail.restart()
 
     def draw(self, snapshot: Snapshot) -> None:
@@ -47,6 +48,8 @@ class Stage:
                 self._server.send(message)
         elif _is_new_episode(self._last, snapshot):
             self.restart()
+        for message in self._drawing.appear(snapshot):
+            self._server.send(message)
         if self._trail.extend(snapshot.position_ned):
             self._server.send(self._trail.message())
         for path, placement in self._drawing.placements(snapshot).items():

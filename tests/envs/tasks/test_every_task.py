@@ -28,6 +28,9 @@ FLIGHTS = [
 WITH_MOST = [one for one in DEFAULTS if one[0] in ("DynamicPositioning", "ObstacleAvoidance")]
 """The tasks with the most weather and the most instruments. `tests/envs/vector` has StationKeeping's lanes."""
 
+WITHOUT_SCENERY = ("DepthHeading", "DynamicPositioning", "StationKeeping")
+"""Tasks with nothing around the vehicle but water."""
+
 every_flight = pytest.mark.parametrize(("task", "vehicle"), sweep(FLIGHTS, plain=WITH_MOST))
 every_task = pytest.mark.parametrize("task", sweep(TASKS, plain=["StationKeeping", "Encounter"]))
 
@@ -56,6 +59,7 @@ def test_an_episode_can_be_kept_and_shown(task, tmp_path):
     env.reset(seed=0)
     for _ in range(5):
         env.step(np.zeros(env.action_space.shape, np.float32))
+    assert env.snapshot().things or task in WITHOUT_SCENERY
     replay = tmp_path / "replay.html"
     env.save_html(replay)
     assert replay.stat().st_size > 10_000

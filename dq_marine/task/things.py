@@ -1,0 +1,71 @@
+"""What surrounds a vehicle, for drawing only: things of a fixed form, each at a place.
+
+A task says by `scenery(parameters, memory)` which things there are now; what it computes with is its own affair.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from dq_marine.algebra.quaternion import Quaternion
+from dq_marine.algebra.vector3 import Vector3
+
+LEVEL: Quaternion = (1.0, 0.0, 0.0, 0.0)
+
+
+class Column(NamedTuple):
+    """A standing cylinder about its middle: radius and height [m]."""
+
+    radius: float
+    height: float
+
+
+class ShipHull(NamedTuple):
+    """Another vessel, its bow ahead, its waterline at its origin: length and width [m]."""
+
+    length: float
+    width: float
+
+
+class Cone(NamedTuple):
+    """A funnel, open at both ends: its throat at the origin, its mouth astern of it; radii and length [m]."""
+
+    throat: float
+    mouth: float
+    length: float
+
+
+class Line(NamedTuple):
+    """What is to be followed, through points [m], at least two; and how thick it is drawn, as a radius [m]."""
+
+    points: tuple[Vector3, ...]
+    radius: float
+
+
+class Tube(NamedTuple):
+    """A round pipe through points [m], at least two; its radius [m]."""
+
+    points: tuple[Vector3, ...]
+    radius: float
+
+
+class Relief(NamedTuple):
+    """A seabed: depths [m] over a grid of places [m], row by row from the south and each from the west."""
+
+    norths: tuple[float, ...]
+    easts: tuple[float, ...]
+    depths: tuple[float, ...]
+
+
+Form = Column | ShipHull | Cone | Line | Tube | Relief
+
+
+class Thing(NamedTuple):
+    """A form at a place: its origin in NED [m], its attitude to NED (w, x, y, z).
+
+    Forms with ahead and astern have x ahead, y to starboard, z down. Equal forms are drawn once, wherever they go.
+    """
+
+    form: Form
+    position_ned: Vector3 = (0.0, 0.0, 0.0)
+    attitude: Quaternion = LEVEL
