@@ -64,13 +64,13 @@ class Page:
 
 
 @contextmanager
-def open_page(url: str) -> Iterator[Page]:
-    """Show a page until the end of the block."""
+def open_page(url: str, *, ready: str = "typeof viewer === 'object'") -> Iterator[Page]:
+    """Show a page until the end of the block, from when a JavaScript condition holds."""
     browser = HeadlessBrowser(url, 640, 480, extra_flags=DEBUGGING_FLAGS)
     try:
         with connect(_debugger_url(browser.profile), max_size=None) as connection:
             page = Page(connection)
-            page.wait_until("typeof viewer === 'object'")
+            page.wait_until(ready)
             yield page
     finally:
         browser.close()

@@ -97,7 +97,7 @@ REPLAY_SCRIPT = """
 """
 
 CONTROLS_SCRIPT = """
-  const animator = viewer.animator;
+  const animator = window.animator = viewer.animator;  // a page around this one may play and pause it
   const toggle = () => animator.playing ? animator.pause() : animator.play();
   const seek = (time) => { animator.pause(); animator.seek(time); animator.display_progress(time); };
   const trail = node("world", "trail", "<object>").geometry;
