@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -21,7 +23,12 @@ from dq_marine.cli.options import (
 )
 from dq_marine.errors import InvalidInputError
 
+SECONDS, SECONDS_WITH_PANEL = 30.0, 3600.0
+"""How long a flight is if nobody says so [s]; with a panel the person ends it."""
+
 EXAMPLES = examples(
+    "dq-marine fly --teleop --current 0.3",
+    "dq-marine fly --panel --task PathFollowing --vehicle remus100",
     "dq-marine fly --live --start-distance 2",
     "dq-marine fly --run runs/ppo --html ppo.html --plot ppo.png --seed 3",
     "dq-marine fly --agent zero --current 0.2,-0.1,0 --seconds 60 --html drift.html",
@@ -57,6 +64,21 @@ def fly(
             help="Show the flight in the browser, in real time. This is the default if no file is named.",
         ),
     ] = False,
+    panel: Annotated[
+        bool,
+        typer.Option(
+            "--panel",
+            help="Fly in the browser with a panel: play, pause, step, speed, who flies, the current, the camera; until "
+            "you quit.",
+        ),
+    ] = False,
+    teleop: Annotated[
+        bool,
+        typer.Option(
+            "--teleop",
+            help="Take the helm yourself, by keyboard, gamepad or mouse in the browser: as --panel.",
+        ),
+    ] = False,
     seed: Annotated[
         int | None,
         typer.Option(
@@ -72,7 +94,12 @@ def fly(
     level: LevelOption = None,
     current: CurrentOption = None,
     set_: SetOption = None,
-    seconds: Annotated[float, typer.Option("--seconds", help="Simulated time, in seconds.")] = 30.0,
+    seconds: Annotated[
+        float | None,
+        typer.Option(
+            "--seconds", help="Simulated time, in seconds.", show_default="30; with a panel an hour"
+        ),
+    ] = None,
     start_distance: Annotated[
         float | None,
         typer.Option(
@@ -96,16 +123,24 @@ def fly(
     if only_print:
         print_preset(environment, "environment")
         return
-    shown = live or (html is None and plot is None and trajectory is None)
-    outputs = Outputs(live=shown, html=html, plot=plot, trajectory=trajectory)
-    episode = fly_once(
-        FlightPlan(environment, seconds, seed, start_distance),
-        lambda env: next(iter(make_agents(baselines, runs, env, seed=seed or 0).values())),
-        outputs,
-        title=f"{run or baselines[0]}, seed {{seed}}",
-    )
+    files = Outputs(html=html, plot=plot, trajectory=trajectory)
+    title = f"{run or baselines[0]}, seed {{seed}}"
+    length = seconds if seconds is not None else (SECONDS_WITH_PANEL if panel or teleop else SECONDS)
+    plan = FlightPlan(environment, length, seed, start_distance)
+    if panel or teleop:
+        from dq_marine.agents.interactive.flying import fly_interactively, offered_agents
+
+        offer = partial(offered_agents, baselines=baselines, runs=runs, seed=seed or 0)
+        episode = fly_interactively(plan, offer, files, title=title, teleoperated=teleop)
+    else:
+        episode = fly_once(
+            plan,
+            lambda env: next(iter(make_agents(baselines, runs, env, seed=seed or 0).values())),
+            replace(files, live=live or not files.files),
+            title=title,
+        )
     console.print(episode_table(episode))
     for note in episode.notes:
         console.print(note, highlight=False, markup=False)
-    for path in outputs.files:
+    for path in files.files:
         console.print(f"Wrote {path}", soft_wrap=True)

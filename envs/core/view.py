@@ -56,11 +56,11 @@ def checked_render_mode(mode: str | None, known: list[str]) -> str | None:
     return mode
 
 
-def open_page(shape: Shape) -> LiveViewer:
+def open_page(shape: Shape, title: str) -> LiveViewer:
     """Open a live page and say where it is."""
     from dq_marine.viewer.live import LiveViewer
 
-    page = LiveViewer(shape, open_browser=True)
+    page = LiveViewer(shape, title=title, open_browser=True)
     announce(f"the live page is at {page.url}")
     return page
 
@@ -137,7 +137,7 @@ class EpisodeView:
         from dq_marine.viewer.pacing import RealTimePacer
 
         if self._live is None:
-            self._live = open_page(self._shape)
+            self._live = open_page(self._shape, self._title)
         if self._pacer is None:
             self._pacer = RealTimePacer()
         self._pacer.wait_until(snapshot.time)

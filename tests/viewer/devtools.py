@@ -64,9 +64,11 @@ class Page:
 
 
 @contextmanager
-def open_page(url: str, *, ready: str = "typeof viewer === 'object'") -> Iterator[Page]:
+def open_page(
+    url: str, *, ready: str = "typeof viewer === 'object'", width: int = 640, height: int = 480
+) -> Iterator[Page]:
     """Show a page until the end of the block, from when a JavaScript condition holds."""
-    browser = HeadlessBrowser(url, 640, 480, extra_flags=DEBUGGING_FLAGS)
+    browser = HeadlessBrowser(url, width, height, extra_flags=DEBUGGING_FLAGS)
     try:
         with connect(_debugger_url(browser.profile), max_size=None) as connection:
             page = Page(connection)

@@ -6,11 +6,19 @@ so that it is right in every page, also while an animation runs or is scrubbed.
 
 from __future__ import annotations
 
+from importlib import resources
 from string import Template
+
+
+def _file(name: str) -> str:
+    """A file of the folder `page`, which the live page consists of."""
+    return resources.files(__package__).joinpath("page", name).read_text(encoding="utf-8")
+
 
 STYLE = """
   html, body { margin: 0; height: 100%; background: #05263a; overflow: hidden; }
   #meshcat-pane { width: 100vw; height: 100vh; overflow: hidden; }
+  .dg.main { display: none !important; }  /* meshcat's own list of everything in the scene */
   #caption {
     position: absolute; left: 20px; top: 16px; color: #f2fbff; pointer-events: none;
     font: 15px/1.4 system-ui, sans-serif; text-shadow: 0 1px 3px #00131e;
@@ -149,8 +157,15 @@ def _inline(script: str) -> str:
 
 SERVED_MESHCAT = '<script src="main.min.js"></script>\n'
 
+PANEL_STYLE = f"<style>{_file('panel.css')}</style>\n"
+
 LIVE_PAGE = _page(
-    "dq-marine", CAPTION.replace("$title", ""), SERVED_MESHCAT, _inline(LIVE_SCRIPT + CAPTION_SCRIPT)
+    "dq-marine",
+    CAPTION.replace("$title", "") + PANEL_STYLE + _file("panel.html"),
+    SERVED_MESHCAT,
+    _inline(LIVE_SCRIPT + CAPTION_SCRIPT),
+    _inline(_file("panel.js")),
+    _inline(_file("view.js")),
 )
 CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT))
 
