@@ -8,6 +8,7 @@ from typing import Any
 
 import gymnasium as gym
 import numpy as np
+from gymnasium.error import ResetNeeded
 
 from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.environments import marine
@@ -16,13 +17,10 @@ from dq_marine.agents.interactive.controls import (
     AGENT,
     CURRENT,
     HOLD,
-    PLAYING,
     POWER,
     QUIT,
     RESET,
     SEED,
-    SPEED,
-    STEP,
     STICK,
     flight_controls,
     stick_positions,
@@ -34,13 +32,10 @@ from dq_marine.envs.core.observation import Observation
 from dq_marine.errors import InvalidInputError
 from dq_marine.viewer.controls import LEFT, Event
 from dq_marine.viewer.live import LiveViewer
-from dq_marine.viewer.pacing import RealTimePacer
+from dq_marine.viewer.playback import PLAYING, STEP, Playback
 
 HELM = "helm"
 """What the helm is called among the agents."""
-
-PATIENCE = 0.02
-"""Time between looks at what a person does, while the flight is paused [s]."""
 
 DRAWN_EVERY, READ_EVERY = 1.0 / 30.0, 0.1
 """Time on the wall between pictures, and between readings [s]; a fast flight draws less often than it steps."""
@@ -74,20 +69,16 @@ class Conductor:
             sleep: waits for so many seconds.
         """
         self.seed, self.quitting, self.restarting = seed, False, False
-        self._viewer, self._agents, self._helm, self._sleep = viewer, dict(agents), helm, sleep
+        self._viewer, self._agents, self._helm = viewer, dict(agents), helm
+        self._playback = Playback(sleep=sleep)
         self._chosen = next(iter(self._agents))
-        self._playing, self._speed, self._steps = True, 1.0, 0
         self._current: tuple[float, float] | None = None
         self._drawn_at = self._read_at = -np.inf
-        self._pacer = RealTimePacer(self._speed)
         self._env: MarineEnv | None = None
         self._does: dict[str, Callable[[Any], None]] = {
-            PLAYING: self._play,
-            STEP: lambda _: self._step(),
             RESET: lambda _: self._restart(),
             QUIT: lambda _: self._quit(),
             SEED: self._take_seed,
-            SPEED: self._take_speed,
             AGENT: self._choose,
             STICK: self._move_stick,
             LEFT: lambda _: self._move_stick(None),
@@ -100,10 +91,10 @@ class Conductor:
     def reset(self, env: gym.Env[Any, Any]) -> None:
         """Show the beginning of an episode, and the controls that its environment has."""
         inner = self._env = marine(env)
-        self._steps, self.restarting, self._current = 0, False, None
+        self.restarting, self._current = False, None
         for agent in self._agents.values():
             agent.reset(env)
-        self._pacer = RealTimePacer(self._speed)
+        self._playback.begin()
         self._viewer.clear_trail()
         self._viewer.show_controls(
             flight_controls(
@@ -111,8 +102,7 @@ class Conductor:
                 tuple(self._agents),
                 self._chosen,
                 seed=self.seed,
-                speed=self._speed,
-                playing=self._playing,
+                playback=self._playback,
                 helm=self._helm,
             )
         )
@@ -125,32 +115,31 @@ class Conductor:
         Raises:
             FlightEndedError: the person wants another episode, or none.
         """
-        self._show(at_once=not self._playing)
-        self._hear()
-        while not (self._playing or self._steps):
-            self._sleep(PATIENCE)
-            self._hear()
-        self._steps = max(self._steps - 1, 0)
-        if self._env is not None:
-            self._pacer.wait_until(self._env.time)
+        self._show(at_once=not self._playback.playing)
+        self._playback.wait(self._flying.time, self._hear)
         return self._agents[self._chosen].act(observation)
 
     def goes_on_after(self, notice: str) -> bool:
         """Show how an episode ended, and wait; return whether the person wants another one."""
-        self._playing, self._steps = False, 0
+        self._playback.take(Event(PLAYING, False))
         self._viewer.show_values({PLAYING: False})
         self._viewer.show_notice(notice)
         self._show(at_once=True)
         try:
-            while not self._playing:
-                self._sleep(PATIENCE)
-                self._hear()
+            self._playback.wait(self._flying.time, self._hear)
         except FlightEndedError:
             pass
         except KeyboardInterrupt:
             self.quitting = True
-        self._playing = True
+        self._playback.take(Event(PLAYING, True))
         return not self.quitting
+
+    @property
+    def _flying(self) -> MarineEnv:
+        """The environment of the episode under way."""
+        if self._env is None:
+            raise ResetNeeded("the conductor has no flight yet; reset it first")
+        return self._env
 
     # What a person does
 
@@ -162,18 +151,13 @@ class Conductor:
         """
         events: list[Event] = self._viewer.events()
         for event in events:
-            self._does[event.name](event.value)
+            self._playback.take(event)
+            if event.name in self._does:
+                self._does[event.name](event.value)
+        if any(event.name == STEP for event in events):
+            self._viewer.show_values({PLAYING: False})
         if self.restarting or self.quitting:
             raise FlightEndedError
-
-    def _play(self, playing: bool) -> None:
-        self._playing = playing
-        self._pacer = RealTimePacer(self._speed)
-
-    def _step(self) -> None:
-        self._steps += 1
-        self._playing = False
-        self._viewer.show_values({PLAYING: False})
 
     def _restart(self) -> None:
         self.restarting = True
@@ -184,23 +168,15 @@ class Conductor:
     def _take_seed(self, seed: int) -> None:
         self.seed = seed
 
-    def _take_speed(self, speed: float) -> None:
-        self._speed = speed
-        self._pacer = RealTimePacer(speed)
-
     def _choose(self, name: str) -> None:
         self._chosen = name
-        if self._env is not None:
-            self._agents[name].reset(self._env)
+        self._agents[name].reset(self._flying)
 
     def _move_stick(self, positions: tuple[float, ...] | None) -> None:
-        if self._env is not None:
-            self._helm.stick = stick_positions(self._env, positions)
+        self._helm.stick = stick_positions(self._flying, positions)
 
     def _turn_current(self, speed: float | None, bearing: float | None) -> None:
-        env = self._env
-        if env is None:
-            return
+        env = self._flying
         north, east, _ = env.episode.current_ned
         was_speed, was_bearing = self._current or (
             float(np.hypot(north, east)),
@@ -219,9 +195,7 @@ class Conductor:
     # What a person sees
 
     def _show(self, *, at_once: bool) -> None:
-        env, now = self._env, time.monotonic()
-        if env is None:
-            return
+        env, now = self._flying, time.monotonic()
         if at_once or now - self._drawn_at >= DRAWN_EVERY:
             self._viewer.draw(env.snapshot())
             self._drawn_at = now

@@ -12,18 +12,15 @@ from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.physics.current.formulas.uniform import MOVING_WATER
 from dq_marine.vehicles.model import MOTIONS
 from dq_marine.viewer.controls import Axis, Button, Choice, Control, Group, Number, Slider, Stick, Switch
+from dq_marine.viewer.playback import Playback
 
 if TYPE_CHECKING:
     from dq_marine.agents.interactive.helm import Helm
 
-PLAYING, STEP, RESET, QUIT = "playing", "step", "reset", "quit"
-SEED, SPEED, AGENT = "seed", "speed", "agent"
+RESET, QUIT, SEED, AGENT = "reset", "quit", "seed", "agent"
 STICK, POWER, HOLD = "stick", "power", "hold"
 CURRENT = ("current_speed", "current_bearing")
 """Names of the controls."""
-
-SLOWEST, FASTEST = 0.1, 20.0
-"""Simulated seconds per second on the wall."""
 
 LARGEST_SEED = 2**31 - 1
 FASTEST_CURRENT = 1.5
@@ -46,8 +43,7 @@ def flight_controls(
     chosen: str,
     *,
     seed: int,
-    speed: float,
-    playing: bool,
+    playback: Playback,
     helm: Helm,
 ) -> tuple[Group, ...]:
     """Return the controls of an environment's flight.
@@ -57,16 +53,13 @@ def flight_controls(
         agents: names of those who can fly.
         chosen: who does.
         seed: of the episode.
-        speed: simulated seconds per second on the wall.
-        playing: whether the flight goes on by itself.
+        playback: plays, pauses and steps it.
         helm: what the stick belongs to.
     """
     simulation: tuple[Control, ...] = (
-        Button(STEP, "Step", key="Period"),
+        *playback.controls(),
         Button(RESET, "New episode", key="KeyN"),
         Button(QUIT, "Quit"),
-        Switch(PLAYING, "play", playing, key="Space"),
-        Slider(SPEED, "speed", SLOWEST, FASTEST, speed, 0.1, "x", logarithmic=True),
         Number(SEED, "seed of the next episode", 0, LARGEST_SEED, seed),
         Choice(AGENT, "flown by", agents, chosen),
     )

@@ -53,12 +53,14 @@ class Helm:
         self.can_hold = self._controller is not None
         self.hold = self.can_hold
         self._place = (np.zeros(3), np.eye(3))
+        self._touched = np.zeros(6, np.bool_)
 
     def reset(self, env: gym.Env[Any, Any]) -> None:
         """Begin to hold where the vehicle is."""
         self._env = marine(env)
         position, rotation = self._pose()
         self._place = (position, _levelled(rotation))
+        self._touched = np.zeros(6, np.bool_)
         if self._controller is not None:
             self._controller.reset()
 
@@ -75,9 +77,11 @@ class Helm:
         """Return where the vehicle is held, which moves along with it while it is moved by hand."""
         position, rotation = self._pose()
         kept_position, kept_rotation = self._place
+        moved = touched | self._touched  # where it is let go is where it is one control period later
+        self._touched = touched
         self._place = (
-            position if touched[list(MOVING[0])].any() else kept_position,
-            _levelled(rotation) if touched[list(MOVING[1])].any() else kept_rotation,
+            position if moved[list(MOVING[0])].any() else kept_position,
+            _levelled(rotation) if moved[list(MOVING[1])].any() else kept_rotation,
         )
         kept_position, kept_rotation = self._place
         to_goal = rotation.T @ (kept_position - position)
@@ -87,7 +91,9 @@ class Helm:
 
     def _pose(self) -> tuple[Array, Array]:
         """Return position in NED [m] and rotation matrix, body to NED."""
-        return self._env.position_ned, np.reshape(rotation_matrix(tuple(self._env.quaternion_body_to_ned)), (3, 3))
+        return self._env.position_ned, np.reshape(
+            rotation_matrix(tuple(self._env.quaternion_body_to_ned)), (3, 3)
+        )
 
 
 def _levelled(rotation: Array) -> Array:

@@ -47,6 +47,12 @@ class Page:
     def clear_trail(self) -> None:
         pass
 
+    def show_controls(self, groups: Any) -> None:
+        pass
+
+    def events(self) -> list[Any]:
+        return []
+
     def close(self) -> None:
         self.closed = True
 
