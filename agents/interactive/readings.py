@@ -21,7 +21,7 @@ def readings(env: MarineEnv) -> dict[str, tuple[Reading, ...]]:
     measured = env.measured
     north, east, down = env.position_ned.tolist()
     depth = (
-        Reading("heave", -down, "m") if env.vehicle.hydrostatics is not None else Reading("depth", down, "m")
+        Reading("height", -down, "m") if env.vehicle.hydrostatics is not None else Reading("depth", down, "m")
     )
     held = env.episode.action[env.action_mapping.places].tolist()
     return {

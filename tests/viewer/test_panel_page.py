@@ -231,7 +231,7 @@ def camera_from_vehicle(page: Page) -> list[float]:
 
 def test_cameras_stand_where_they_say(viewer: LiveViewer, page: Page) -> None:
     viewer.draw(snapshot(time=2.0, quaternion_body_to_ned=yawed(0.0)))
-    page.wait_until(f"{element('clock')}.textContent === '2.0 s'")
+    page.wait_until(f"{element('clock')}.textContent === '2.0 s' && glide.at_rest()")
     choose_camera(page, "chase")
     north, up, east = camera_from_vehicle(page)
     assert north < -1.0
@@ -253,11 +253,11 @@ def test_cameras_stand_where_they_say(viewer: LiveViewer, page: Page) -> None:
 
 def test_a_free_camera_stays_where_it_is_in_the_world(viewer: LiveViewer, page: Page) -> None:
     viewer.draw(snapshot(time=3.0, position_ned=[0.0, 0.0, 5.0]))
-    page.wait_until(f"{element('clock')}.textContent === '3.0 s'")
+    page.wait_until(f"{element('clock')}.textContent === '3.0 s' && glide.at_rest()")
     choose_camera(page, "free")
     before = camera_from_vehicle(page)
     viewer.draw(snapshot(time=4.0, position_ned=[4.0, -3.0, 6.0]))
-    page.wait_until(f"{element('clock')}.textContent === '4.0 s'")
+    page.wait_until(f"{element('clock')}.textContent === '4.0 s' && glide.at_rest()")
     page.evaluate("frames_seen = 0")
     page.wait_until("frames_seen > 3")
     after = camera_from_vehicle(page)

@@ -55,9 +55,10 @@ CAPTION_SCRIPT = """
 
   function update_caption() {
     const depth = node("world", "vehicle").position.z;
-    const cell = node("world", "floor", "sand", "<object>").userData.cell;
+    const {cell, afloat} = node("world", "floor", "sand", "<object>").userData;
+    const place = afloat ? "height " + (-depth).toFixed(2) : "depth " + depth.toFixed(2);
     show("clock", node("world", "clock").position.x.toFixed(1) + " s");
-    show("details", "depth " + depth.toFixed(2) + " m" + (cell ? " · grid " + cell + " m" : ""));
+    show("details", place + " m" + (cell ? " · grid " + cell + " m" : ""));
     requestAnimationFrame(update_caption);
   }
   update_caption();
@@ -164,6 +165,7 @@ LIVE_PAGE = _page(
     CAPTION.replace("$title", "") + PANEL_STYLE + _file("panel.html"),
     SERVED_MESHCAT,
     _inline(LIVE_SCRIPT + CAPTION_SCRIPT),
+    _inline(_file("glide.js")),
     _inline(_file("panel.js")),
     _inline(_file("view.js")),
 )
