@@ -38,7 +38,7 @@ PERIODS_EACH_WAY = 3
 DIVISIONS_PER_PERIOD = 6
 SPECKS_PER_BLOCK = 60
 
-FINE_STEPS, FINE_REACH, STRETCH = 60, 0.6, 1.2
+FINE_STEPS, FINE_REACH, STRETCH = 52, 0.55, 1.3
 """Of the mesh of a sea with waves: equal steps each way from the vehicle's origin, how far they go together [lengths of
 the vehicle], and the ratio of each of the next ones, which go to the edge of the floor, to the one before."""
 
