@@ -36,14 +36,14 @@ class FlightPlan:
 
     Attributes:
         environment: the task.
-        seconds: simulated time [s].
+        seconds: simulated time [s]; None for as long as the environment's episodes last.
         seed: of the episode; None for the first from 0 whose start is far from the goal.
         start_distance: from the goal [m], at the goal's depth; None draws the whole start.
         start: further options of the environment's reset.
     """
 
     environment: EnvironmentSettings
-    seconds: float = 30.0
+    seconds: float | None = 30.0
     seed: int | None = None
     start_distance: float | None = None
     start: dict[str, Any] = field(default_factory=dict)
@@ -176,9 +176,12 @@ def _check_files(outputs: Outputs) -> None:
 
 
 def _make(plan: FlightPlan, outputs: Outputs) -> gym.Env[Any, Any]:
-    """Return the environment with the plan's time limit in place of its own."""
+    """Return the environment with the plan's time limit, if it has one, in place of its own."""
     mode = "human" if outputs.live else None
-    inner = marine(make_environment(plan.environment, render_mode=mode, record=outputs.html is not None))
+    made = make_environment(plan.environment, render_mode=mode, record=outputs.html is not None)
+    if plan.seconds is None:
+        return made
+    inner = marine(made)
     if not inner.control_period <= plan.seconds <= LONGEST_FLIGHT:
         raise InvalidInputError(
             f"seconds = {plan.seconds:g}; give a time of at least one control period, {inner.control_period:g} s, and "

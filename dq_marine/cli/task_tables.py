@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
-from typing import NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
 
 from rich.table import Table
 
 from dq_marine.envs.core.definition import TaskDefinition
-from dq_marine.envs.core.registry import registered_tasks
+from dq_marine.envs.core.registry import registered_tasks, short_name
+from dq_marine.envs.scenarios.files import scenarios_of
 from dq_marine.physics.fields import Motion
 from dq_marine.task.protocol import never
 from dq_marine.vehicles import Vehicle, load_vehicle, vehicle_names
@@ -121,6 +122,36 @@ def level_table(definition: TaskDefinition) -> TextTable:
         for level, keywords in definition.levels.items()
     ]
     return TextTable("levels", ("level", "keywords"), rows)
+
+
+def scenario_count_table() -> TextTable:
+    """Return a table of how many scenarios ship for each task, with the first of them."""
+    rows = [
+        (f"`{short_name(task)}`", str(len(found)), ", ".join(f"`{one.name}`" for one in found[:5]) + ", ...")
+        for task in registered_tasks()
+        if (found := scenarios_of(task.id))
+    ]
+    return TextTable("scenarios", ("task", "scenarios", "such as"), rows)
+
+
+def scenario_table(definition: TaskDefinition) -> TextTable:
+    """Return the scenarios of a task, with what each is."""
+    rows = [(f"`{one.name}`", one.description, str(one.seed)) for one in scenarios_of(definition.id)]
+    return TextTable("scenarios", ("scenario", "what it is", "seed"), rows)
+
+
+def scenario_conditions_table(definition: TaskDefinition) -> TextTable:
+    """Return the scenarios of a task, with the keywords and the options of reset that each stands for."""
+    rows = [
+        (f"`{one.name}`", one.description, _said(one.keywords), _said(one.reset), str(one.seed))
+        for one in scenarios_of(definition.id)
+    ]
+    return TextTable("scenarios", ("scenario", "what it is", "keywords", "options of `reset`", "seed"), rows)
+
+
+def _said(values: Mapping[str, Any]) -> str:
+    """Return keywords or options as Python has them."""
+    return ", ".join(f"`{name}={value!r}`" for name, value in values.items())
 
 
 def _plain(number: float) -> str:
