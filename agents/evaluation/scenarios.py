@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
+import gymnasium as gym
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 from rich.text import Text
 
-from dq_marine.agents.choice import make_agents
+from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.episodes import Episode
 from dq_marine.agents.evaluation.evaluation import Score, evaluate
@@ -81,8 +81,7 @@ def _meant(name: str, task: str | None) -> Sequence[Scenario]:
 def evaluate_scenario(
     scenario: Scenario,
     environment: EnvironmentSettings,
-    baselines: Sequence[str],
-    runs: Sequence[Path],
+    make_agents: Callable[[gym.Env[Any, Any]], Mapping[str, Agent]],
     *,
     episodes: int = 1,
     seed: int | None = None,
@@ -94,8 +93,7 @@ def evaluate_scenario(
     Args:
         scenario: what every episode begins as.
         environment: that it is flown in.
-        baselines: agents by name.
-        runs: folders of training runs, whose policies fly.
+        make_agents: given the environment, returns the agents that fly it, by name.
         episodes: of each agent; those after the first have seeds that count up, and differ in what the seed fixes.
         seed: of the first; None for the scenario's.
         after_episode: called with the agent's name and the episode after each one.
@@ -108,7 +106,7 @@ def evaluate_scenario(
     env = make_environment(environment)
     scores = evaluate(
         env,
-        make_agents(baselines, runs, env, seed=first),
+        make_agents(env),
         episodes=episodes,
         seed=first,
         options=dict(scenario.reset),

@@ -44,8 +44,8 @@ def leaderboard(
         list[Path] | None,
         typer.Option(
             "--policy",
-            help="Folder of a training run, whose policy flies what it fits: its task, with its vehicle and sensors; may "
-            "be repeated. Load only runs you trust.",
+            help="Folder of a training run, whose policy flies what it fits: its task, with its vehicle and sensors; "
+            "may be repeated. Load only runs you trust.",
         ),
     ] = None,
     scenarios: Annotated[

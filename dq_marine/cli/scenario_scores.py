@@ -7,6 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import gymnasium as gym
+
+from dq_marine.agents.choice import make_agents
+from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.evaluation.episodes import Episode
 from dq_marine.agents.evaluation.evaluation import score_table
 from dq_marine.agents.evaluation.scenarios import (
@@ -45,6 +49,10 @@ class Flights:
     runs: list[Path]
     episodes: int
     seed: int | None
+
+    def make_agents(self, env: gym.Env[Any, Any]) -> dict[str, Agent]:
+        """Return the agents for an environment, by name."""
+        return make_agents(self.baselines, self.runs, env, seed=self.seed or 0)
 
     def environments(self) -> list[tuple[Scenario, EnvironmentSettings]]:
         """Return the scenarios, each with the environment to fly it in."""
@@ -103,8 +111,7 @@ def _flown(
                 evaluate_scenario(
                     scenario,
                     environment,
-                    flights.baselines,
-                    flights.runs,
+                    flights.make_agents,
                     episodes=flights.episodes,
                     seed=flights.seed,
                     after_episode=advance,

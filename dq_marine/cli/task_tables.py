@@ -62,17 +62,20 @@ def description(definition: TaskDefinition) -> tuple[TextTable, ...]:
     """Return the tables of a task, with its default vehicle."""
     vehicle = load_vehicle(definition.vehicle)
     return (
-        action_table(vehicle),
+        action_table(definition, vehicle),
         observation_table(definition, vehicle),
         reward_table(definition),
         outcome_table(definition),
-        keyword_table(definition),
+        keyword_table(definition, vehicle),
         *((level_table(definition),) if definition.levels else ()),
     )
 
 
-def action_table(vehicle: Vehicle) -> TextTable:
-    """Return what the numbers of an action are: the actuated axes, each with its limit."""
+def action_table(definition: TaskDefinition, vehicle: Vehicle) -> TextTable:
+    """Return what the numbers of an action are by default: the actuated axes, or the channels, with their limits."""
+    if definition.surroundings.get("actuation") == "thrusters":
+        channels = [(one.name, one.unit, f"{one.low:.4g}", f"{one.high:.4g}") for one in vehicle.channels]
+        return TextTable("action", ("channel", "unit", "at -1", "at 1"), channels)
     axes = zip(AXES, UNITS, vehicle.wrench_limits.tolist(), strict=True)
     rows = [(axis, unit, f"{limit:g}") for axis, unit, limit in axes if limit]
     return TextTable("action", ("axis", "unit", "at 1"), rows)
@@ -108,18 +111,20 @@ def outcome_table(definition: TaskDefinition) -> TextTable:
     return TextTable("outcome", ("name", "unit", "meaning"), [*rows, ("`is_success`", "", success)])
 
 
-def keyword_table(definition: TaskDefinition) -> TextTable:
-    """Return the task's own keywords; it takes those of `dq_marine.Settings`, too."""
-    made = definition.settings()
-    rows = [(f"`{one.name}`", repr(getattr(made, one.name))) for one in fields(definition.settings)]
-    return TextTable("own keywords", ("keyword", "default"), rows)
+def keyword_table(definition: TaskDefinition, vehicle: Vehicle) -> TextTable:
+    """Return the task's own keywords, and what they are for a vehicle; it takes those of `dq_marine.Settings`, too."""
+    made, fitted = definition.settings(), definition.checked_settings({}, vehicle)
+    rows = [
+        (f"`{one.name}`", _value(getattr(made, one.name)), _value(getattr(fitted, one.name)))
+        for one in fields(definition.settings)
+    ]
+    return TextTable("own keywords", ("keyword", "default", "with the default vehicle"), rows)
 
 
 def level_table(definition: TaskDefinition) -> TextTable:
     """Return the levels of difficulty, and the keywords that each stands for."""
     rows = [
-        (f"`{level}`", ", ".join(f"`{name}={value!r}`" for name, value in keywords.items()) or "the defaults")
-        for level, keywords in definition.levels.items()
+        (f"`{level}`", _said(keywords) or "the defaults") for level, keywords in definition.levels.items()
     ]
     return TextTable("levels", ("level", "keywords"), rows)
 
@@ -151,7 +156,18 @@ def scenario_conditions_table(definition: TaskDefinition) -> TextTable:
 
 def _said(values: Mapping[str, Any]) -> str:
     """Return keywords or options as Python has them."""
-    return ", ".join(f"`{name}={value!r}`" for name, value in values.items())
+    return ", ".join(f"`{name}={_value(value)}`" for name, value in values.items())
+
+
+def _value(value: Any) -> str:
+    """Return a value as Python has it, its numbers with at most six digits."""
+    if isinstance(value, float):
+        return f"{value:.6g}" if value % 1.0 else repr(value)
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{name!r}: {_value(one)}" for name, one in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return repr(value)
 
 
 def _plain(number: float) -> str:

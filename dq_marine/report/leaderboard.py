@@ -120,8 +120,8 @@ def entries(
                 found += [Entry(task.id, name, level, agent) for agent in (*agents, *able)]
     if not found:
         raise InvalidInputError(
-            f"none of the tasks {[task.id for task in chosen]} suits any of the vehicles {list(loaded)}, or none of the "
-            "agents can fly them; give others"
+            f"none of the tasks {[task.id for task in chosen]} suits any of the vehicles {list(loaded)}, or none of "
+            "the agents can fly them; give others"
         )
     return found
 

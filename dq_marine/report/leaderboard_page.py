@@ -16,10 +16,10 @@ NOT_SHOWN = ("return", "collided", *OF_ACTIONS)
 EXPLANATION = """\
 Success is what the task says of it, at the end of an episode; in brackets the 95 % interval by Wilson's score. Metrics
 are means over the last third of an episode; `effort` is the mean square of the actions, 0 to 1, and `action_change` the
-root mean square of their change from one control period to the next, 0 to 2: the smoother, the smaller. Of these, tables
-give the interquartile mean over the episodes, and in brackets its 95 % interval by the percentile bootstrap (Agarwal et
-al. 2021, as rliable has it). `collided` counts the episodes in which the vehicle hit something, of tasks with something
-to hit."""
+root mean square of their change from one control period to the next, 0 to 2: the smoother, the smaller. Of these,
+tables give the interquartile mean over the episodes, and in brackets its 95 % interval by the percentile bootstrap
+(Agarwal et al. 2021, as rliable has it). `collided` counts the episodes in which the vehicle hit something, of tasks
+with something to hit."""
 
 OF_SCENARIOS = """\
 Each scenario is flown once, as it is named; the intervals say what other scenarios of the kind may bring, by drawing
