@@ -11,7 +11,7 @@ INSTALL := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-versi
 help:  ## list the commands
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/'
 
-demo: $(VENV)/.demo  ## hold a BlueROV2 Heavy in a current; write a 3-D replay and a plot
+demo: $(VENV)/.demo  ## fly three tasks by their controllers; write their replays side by side, and a plot
 	@$(BIN)/dq-marine demo --out demo
 
 test: $(VENV)/.test  ## run every test; installs Chromium where it may, else skips what needs it

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.reading import GOAL_POSE, Reading, goal_reader, read_goal_pose
-from dq_marine.agents.controllers.wrench_mapping import WRENCH_MAPPINGS, WrenchMapping
+from dq_marine.agents.controllers.wrench_mapping import WRENCH_MAPPINGS, Given, WrenchMapping
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import ControllerSettings, LoopSettings
@@ -183,10 +183,22 @@ class DPController:
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,), and advance the integral."""
         reading = self._read(observation)
-        wanted = self.wrench(reading)
+        return self._given(reading, self.wrench(reading)).action.astype(np.float32)
+
+    def steered(self, reading: Reading, by_hand: Array) -> Array:
+        """Return the wrench in which some axes are given by hand, and advance the integral.
+
+        Args:
+            reading: of the pose to hold.
+            by_hand: force or moment of each axis, shape (6,) [N, N m]; NaN leaves an axis to the controller.
+        """
+        wanted = np.where(np.isnan(by_hand), self.wrench(reading), by_hand)
+        return self._given(reading, wanted).wrench_body
+
+    def _given(self, reading: Reading, wanted: Array) -> Given:
         given = self._mapping.give(wanted, float(reading.velocity_body[0]))
         self._integrate(reading, given.wrench_body - wanted)
-        return given.action.astype(np.float32)
+        return given
 
     def wrench(self, reading: Reading) -> Array:
         """Return the wrench wanted now, beyond the limits if need be, shape (6,) [N, N m]."""

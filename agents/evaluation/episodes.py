@@ -15,6 +15,10 @@ from dq_marine.agents.evaluation.metrics import SUCCESS, Array, Metric, metrics_
 from dq_marine.agents.evaluation.trajectory import Track
 
 
+class FlightEndedError(Exception):
+    """An agent ends its flight here: a person who takes part in it wants another, or none."""
+
+
 @dataclass(frozen=True)
 class Episode:
     """One flown episode of n control periods, on n + 1 instants.
@@ -131,7 +135,7 @@ def fly_episode(
 
     Args:
         env: of this package, made with a time limit.
-        agent: what flies it.
+        agent: what flies it; it may end the flight by `FlightEndedError`.
         seed: of the episode.
         options: of the environment's reset.
         interruptible: whether Ctrl-C ends the flight and keeps what was flown; else it passes.
@@ -151,9 +155,11 @@ def fly_episode(
     through_water = []
     terminated = truncated = False
     while not (terminated or truncated):
-        action = agent.act(observation)
         try:
+            action = agent.act(observation)
             observation, reward, terminated, truncated, info = env.step(action)
+        except FlightEndedError:
+            break
         except KeyboardInterrupt:
             if not interruptible:
                 raise

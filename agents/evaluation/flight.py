@@ -90,31 +90,58 @@ def fly(
         InvalidInputError: the plan is wrong, or a file cannot be written.
         MissingDependencyError: the viewer's or the plot's libraries are not installed.
     """
-    _check_files(outputs)
-    env = _make(plan, outputs)
+    env, seed = open_flight(plan, outputs)
     try:
         agent = make_agent(env)
-        seed = far_seed(plan) if plan.seed is None else plan.seed
-        options = {**_start_options(env, plan, seed), **plan.start}
         episode = fly_episode(
             env,
             agent,
             seed=seed,
-            options=options,
+            options=options_of(env, plan, seed),
             interruptible=outputs.live,
             track=outputs.trajectory is not None,
         )
-        if outputs.html is not None:
-            marine(env).save_html(outputs.html)
-        if outputs.plot is not None:
-            from dq_marine.agents.evaluation.error_plot import save_plot
-
-            save_plot(episode, outputs.plot, title=title.replace("{seed}", str(seed)))
-        if outputs.trajectory is not None:
-            write_columns(episode.columns(), outputs.trajectory)
+        write_outputs(env, episode, outputs, title=title.replace("{seed}", str(seed)))
     finally:
         env.close()
     return episode
+
+
+def open_flight(plan: FlightPlan, outputs: Outputs) -> tuple[gym.Env[Any, Any], int]:
+    """Return the environment to fly in, which the caller closes, and the seed of its first episode.
+
+    Raises:
+        InvalidInputError: the plan is wrong, or a file could not be written after the flight.
+        MissingDependencyError: the plot's library is not installed.
+    """
+    _check_files(outputs)
+    env = _make(plan, outputs)
+    return env, far_seed(plan) if plan.seed is None else plan.seed
+
+
+def options_of(env: gym.Env[Any, Any], plan: FlightPlan, seed: int) -> dict[str, Any]:
+    """Return what the environment's reset is to be given for an episode of a plan.
+
+    Raises:
+        InvalidInputError: the plan's start is wrong.
+    """
+    return {**_start_options(env, plan, seed), **plan.start}
+
+
+def write_outputs(env: gym.Env[Any, Any], episode: Episode, outputs: Outputs, *, title: str) -> None:
+    """Write the files that tell of an episode, which was the environment's last one.
+
+    Raises:
+        InvalidInputError: a file cannot be written.
+    """
+    if outputs.html is not None:
+        marine(env).save_html(outputs.html)
+    if outputs.plot is not None:
+        from dq_marine.agents.evaluation.error_plot import save_plot
+
+        save_plot(episode, outputs.plot, title=title)
+    if outputs.trajectory is not None:
+        write_columns(episode.columns(), outputs.trajectory)
 
 
 def episode_table(episode: Episode) -> Table:
@@ -188,6 +215,13 @@ def _make(plan: FlightPlan, outputs: Outputs) -> gym.Env[Any, Any]:
             f"at most {LONGEST_FLIGHT:g} s"
         )
     return TimeLimit(inner, max_episode_steps=round(plan.seconds / inner.control_period))
+
+
+def periods_of(plan: FlightPlan, env: gym.Env[Any, Any]) -> int | None:
+    """Return how many control periods a plan's flight has at most; None if an environment of its own has no limit."""
+    if plan.seconds is not None:
+        return round(plan.seconds / marine(env).control_period)
+    return None if env.spec is None else env.spec.max_episode_steps
 
 
 def _start_options(env: gym.Env[Any, Any], plan: FlightPlan, seed: int) -> dict[str, Any]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -22,7 +24,12 @@ from dq_marine.cli.options import (
 )
 from dq_marine.errors import InvalidInputError
 
+SECONDS, SECONDS_WITH_PANEL = 30.0, 3600.0
+"""How long a flight is if nobody says so [s]; with a panel the person ends it."""
+
 EXAMPLES = examples(
+    "dq-marine fly --teleop --current 0.3",
+    "dq-marine fly --panel --task PathFollowing --vehicle remus100",
     "dq-marine fly --live --start-distance 2",
     "dq-marine fly --scenario StationKeeping/cross_current --live",
     "dq-marine fly --scenario my_scenario.toml --run runs/ppo --html policy.html",
@@ -60,6 +67,21 @@ def fly(
             help="Show the flight in the browser, in real time. This is the default if no file is named.",
         ),
     ] = False,
+    panel: Annotated[
+        bool,
+        typer.Option(
+            "--panel",
+            help="Fly in the browser with a panel: play, pause, step, speed, who flies, the current, the camera; until "
+            "you quit.",
+        ),
+    ] = False,
+    teleop: Annotated[
+        bool,
+        typer.Option(
+            "--teleop",
+            help="Take the helm yourself, by keyboard, gamepad or mouse in the browser: as --panel.",
+        ),
+    ] = False,
     seed: Annotated[
         int | None,
         typer.Option(
@@ -79,7 +101,9 @@ def fly(
     seconds: Annotated[
         float | None,
         typer.Option(
-            "--seconds", help="Simulated time, in seconds.", show_default="30, or as long as a scenario lasts"
+            "--seconds",
+            help="Simulated time, in seconds.",
+            show_default="30; as long as a scenario lasts; with a panel an hour",
         ),
     ] = None,
     start_distance: Annotated[
@@ -110,24 +134,34 @@ def fly(
     if only_print:
         print_preset(environment, "environment")
         return
-    shown = live or (html is None and plot is None and trajectory is None)
-    outputs = Outputs(live=shown, html=html, plot=plot, trajectory=trajectory)
-    if begun is None:
-        plan = FlightPlan(environment, 30.0 if seconds is None else seconds, seed, start_distance)
-    elif start_distance is not None:
+    if begun is not None and start_distance is not None:
         raise InvalidInputError(
             f"--start-distance {start_distance:g} and --scenario {scenario} both say where to start; give one of them"
         )
+    files = Outputs(html=html, plot=plot, trajectory=trajectory)
+    title = f"{run or baselines[0]}, seed {{seed}}"
+    if seconds is None and (panel or teleop):
+        seconds = SECONDS_WITH_PANEL
+    elif seconds is None and begun is None:
+        seconds = SECONDS
+    if begun is None:
+        plan = FlightPlan(environment, seconds, seed, start_distance)
     else:
         plan = FlightPlan(environment, seconds, begun.seed if seed is None else seed, start=begun.reset)
-    episode = fly_once(
-        plan,
-        lambda env: next(iter(make_agents(baselines, runs, env, seed=plan.seed or 0).values())),
-        outputs,
-        title=f"{run or baselines[0]}, seed {{seed}}",
-    )
+    if panel or teleop:
+        from dq_marine.agents.interactive.flying import fly_interactively, offered_agents
+
+        offer = partial(offered_agents, baselines=baselines, runs=runs, seed=plan.seed or 0)
+        episode = fly_interactively(plan, offer, files, title=title, teleoperated=teleop)
+    else:
+        episode = fly_once(
+            plan,
+            lambda env: next(iter(make_agents(baselines, runs, env, seed=plan.seed or 0).values())),
+            replace(files, live=live or not files.files),
+            title=title,
+        )
     console.print(episode_table(episode))
     for note in episode.notes:
         console.print(note, highlight=False, markup=False)
-    for path in outputs.files:
+    for path in files.files:
         console.print(f"Wrote {path}", soft_wrap=True)

@@ -104,7 +104,7 @@ def show(
         save_replay(html, [still], shape, title=loaded.name)
         console.print(f"Wrote {html}", soft_wrap=True)
         return
-    with open_page(shape) as page:
+    with open_page(shape, loaded.name) as page:
         page.draw(still)
         console.print("Ctrl-C closes the page.")
         wait_for_interrupt()

@@ -59,7 +59,7 @@ class OffscreenViewer(Closable):
         self._image = drawing_library("PIL.Image")
         find_chromium()
         self._size = (width, height)
-        self._caption = caption
+        self._caption, self._afloat = caption, shape.floats
         self._timeout = FIRST_PICTURE_TIMEOUT
         self._server = ServerProcess()
         self._stage = Stage(self._server, shape, floor_depth)
@@ -82,7 +82,7 @@ class OffscreenViewer(Closable):
         if picture.size != self._size:
             raise ViewerError(f"the browser drew {picture.size} pixels instead of {self._size}")
         if self._caption:
-            write_caption(picture, snapshot)
+            write_caption(picture, snapshot, afloat=self._afloat)
         pixels: NDArray[np.uint8] = np.array(picture)
         return pixels
 

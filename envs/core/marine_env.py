@@ -19,6 +19,7 @@ from dq_marine.backend.packing import unpack
 from dq_marine.envs.core.action_mapping import whole_action
 from dq_marine.envs.core.beginning import begun_episode
 from dq_marine.envs.core.composed_task import ComposedTask
+from dq_marine.envs.core.currents import turn_current
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.episode import Episode, check_entries, restored_episode, restored_generator
 from dq_marine.envs.core.observation import Observation, as_shown, observation_space
@@ -255,6 +256,25 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         """Linear velocity relative to the water where the vehicle is, in the body frame [m/s], shape (3,)."""
         inertia = self._parameters.inertia
         return np.array(twist_from_momentum(inertia, self._running("velocity").body.momentum).linear)
+
+    @property
+    def measured(self) -> dict[str, float]:
+        """Metrics and terms of the reward at the end of the last control period, by the names of `info`."""
+        report = self._running("measured").report
+        return dict(zip(self.report_names, report.tolist(), strict=False))
+
+    def set_current(self, current_ned: Sequence[float]) -> None:
+        """Let the water move otherwise from now on; the vehicle keeps its velocity over ground.
+
+        Args:
+            current_ned: velocity of the water [m/s], shape (3,).
+
+        Raises:
+            InvalidInputError: the water is too fast, or the environment was made without a current, or with one that
+                changes by itself or over depth; nothing is changed.
+            ResetNeeded: before the first reset.
+        """
+        turn_current(self._running("set_current"), self.scene, self._parameters, current_ned)
 
     def get_state(self) -> dict[str, Any]:
         """Return all that the future depends on, the random generator included, for `set_state`.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from dq_marine.envs.core.marine_env import MarineEnv
     from dq_marine.viewer.live import LiveViewer
     from dq_marine.viewer.offscreen import OffscreenViewer
-    from dq_marine.viewer.pacing import RealTimePacer
+    from dq_marine.viewer.playback import Playback
 
 
 AHEAD = (1.0, 0.0, 0.0)
@@ -56,11 +56,11 @@ def checked_render_mode(mode: str | None, known: list[str]) -> str | None:
     return mode
 
 
-def open_page(shape: Shape) -> LiveViewer:
+def open_page(shape: Shape, title: str) -> LiveViewer:
     """Open a live page and say where it is."""
     from dq_marine.viewer.live import LiveViewer
 
-    page = LiveViewer(shape, open_browser=True)
+    page = LiveViewer(shape, title=title, open_browser=True)
     announce(f"the live page is at {page.url}")
     return page
 
@@ -75,14 +75,15 @@ class EpisodeView:
         self._title = env.vehicle.name
         self._snapshots: list[Snapshot] = []
         self._live: LiveViewer | None = None
-        self._pacer: RealTimePacer | None = None
+        self._playback: Playback | None = None
         self._offscreen: OffscreenViewer | None = None
         self.wants_frames = self._record or self._mode == "human"
 
     def begin(self, env: MarineEnv) -> None:
         """Start a new episode at the environment's present state."""
         self._snapshots = []
-        self._pacer = None
+        if self._playback is not None:
+            self._playback.begin()
         if self._live is not None:
             self._live.clear_trail()
         if self._offscreen is not None:
@@ -124,7 +125,7 @@ class EpisodeView:
         for viewer in (self._live, self._offscreen):
             if viewer is not None:
                 viewer.close()
-        self._live = self._offscreen = self._pacer = None
+        self._live = self._offscreen = self._playback = None
 
     def _pictures(self) -> OffscreenViewer:
         if self._offscreen is None:
@@ -134,11 +135,17 @@ class EpisodeView:
         return self._offscreen
 
     def _draw_live(self, snapshot: Snapshot) -> None:
-        from dq_marine.viewer.pacing import RealTimePacer
+        from dq_marine.viewer.controls import Group
+        from dq_marine.viewer.playback import Playback
 
-        if self._live is None:
-            self._live = open_page(self._shape)
-        if self._pacer is None:
-            self._pacer = RealTimePacer()
-        self._pacer.wait_until(snapshot.time)
+        if self._live is None or self._playback is None:
+            self._live, self._playback = open_page(self._shape, self._title), Playback()
+            self._live.show_controls((Group("Simulation", self._playback.controls()),))
         self._live.draw(snapshot)
+        self._playback.wait(snapshot.time, self._hear)
+
+    def _hear(self) -> None:
+        """Hand over what a person did in the page."""
+        if self._live is not None and self._playback is not None:
+            for event in self._live.events():
+                self._playback.take(event)

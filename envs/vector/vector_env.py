@@ -237,8 +237,8 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             return None
         from dq_marine.envs.vector.lane_watch import LaneWatch  # here: it imports the viewer
 
-        shape = shape_of(self._lanes.single(index).vehicle)
-        self._watch = LaneWatch(index, lambda: open_page(shape))
+        vehicle = self._lanes.single(index).vehicle
+        self._watch = LaneWatch(index, lambda: open_page(shape_of(vehicle), vehicle.name))
         return self._watch.url
 
     def close_extras(self, **kwargs: Any) -> None:

@@ -64,13 +64,15 @@ class Page:
 
 
 @contextmanager
-def open_page(url: str) -> Iterator[Page]:
-    """Show a page until the end of the block."""
-    browser = HeadlessBrowser(url, 640, 480, extra_flags=DEBUGGING_FLAGS)
+def open_page(
+    url: str, *, ready: str = "typeof viewer === 'object'", width: int = 640, height: int = 480
+) -> Iterator[Page]:
+    """Show a page until the end of the block, from when a JavaScript condition holds."""
+    browser = HeadlessBrowser(url, width, height, extra_flags=DEBUGGING_FLAGS)
     try:
         with connect(_debugger_url(browser.profile), max_size=None) as connection:
             page = Page(connection)
-            page.wait_until("typeof viewer === 'object'")
+            page.wait_until(ready)
             yield page
     finally:
         browser.close()

@@ -34,7 +34,7 @@ def page(viewer: LiveViewer) -> Iterator[Page]:
 def draw(viewer: LiveViewer, page: Page, time: float, **changes: object) -> None:
     """Draw a snapshot and wait until it has arrived in the page."""
     viewer.draw(snapshot(time=time, **changes))
-    page.wait_until(f"{CLOCK_TEXT} === '{time:.1f} s'")
+    page.wait_until(f"{CLOCK_TEXT} === '{time:.1f} s' && glide.at_rest()")
 
 
 @pytest.mark.parametrize(
@@ -68,7 +68,7 @@ def test_meshcat_scenery_is_hidden(page: Page) -> None:
 def test_a_page_opened_late_shows_the_present_pose(viewer: LiveViewer, page: Page) -> None:
     draw(viewer, page, 2.0, position_ned=[1.0, -2.0, 6.0], quaternion_body_to_ned=yawed(0.5))
     with open_page(viewer.url) as late:
-        late.wait_until(f"{CLOCK_TEXT} === '2.0 s'")
+        late.wait_until(f"{CLOCK_TEXT} === '2.0 s' && glide.at_rest()")
         for shown in (page, late):
             w, *xyz = yawed(0.5)
             assert_allclose(shown.node("/world/vehicle", "position.toArray()"), [1.0, -2.0, 6.0])
@@ -100,6 +100,26 @@ def test_trail_grows_and_is_cleared_by_a_new_episode(viewer: LiveViewer, page: P
     viewer.clear_trail()
     draw(viewer, page, 0.6, position_ned=[0.6, 0.0, 5.0])
     assert page.node("/world/trail", count) == 1
+
+
+def test_the_vehicle_glides_to_where_it_is_told(viewer: LiveViewer, page: Page) -> None:
+    """Halfway between two messages it is between them; a new episode jumps."""
+    draw(viewer, page, 20.0, position_ned=[0.0, 0.0, 5.0])
+    page.evaluate("""
+      window.seen = [];
+      (function watch() {
+        seen.push(viewer.scene_tree.find(["world", "vehicle"]).object.position.x);
+        if (seen.at(-1) !== 1) { requestAnimationFrame(watch); }
+      })()
+    """)
+    draw(viewer, page, 20.1, position_ned=[1.0, 0.0, 5.0])
+    page.wait_until("seen.at(-1) === 1")
+    between = page.evaluate("seen.filter((x) => x > 0 && x < 1)")
+    assert between
+    assert between == sorted(between)
+    viewer.draw(snapshot(time=0.0, position_ned=[0.0, 0.0, 5.0]))
+    page.wait_until(f"{CLOCK_TEXT} === '0.0 s'")
+    assert page.evaluate("glide.at_rest()")
 
 
 def test_caption(viewer: LiveViewer, page: Page) -> None:

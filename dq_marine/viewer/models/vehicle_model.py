@@ -24,8 +24,8 @@ GOAL_BALL = "/world/goal/ball"
 
 SOLID = Look()
 GLASS = Look(opacity=0.45, shininess=120.0)
-GHOST = Look(opacity=0.35, foggy=False)
-"""The murk of the water does not dim the goal, so that a far one can still be seen."""
+GHOST = Look(opacity=0.35, foggy=False, yielding=True)
+"""The murk of the water does not dim a far goal; a vehicle that has reached it is seen in its place."""
 
 GHOST_GREEN = 0x5CFFA0
 BALL_RADIUS_IN_LENGTHS = 0.3

@@ -38,6 +38,14 @@ class Message:
 CAPTURE_IMAGE = Message("capture_image")
 """Ask for a picture of everything drawn so far."""
 
+TAKE_WORDS = Message("take_words")
+"""Ask for what was said by the panels of pages since it was asked last."""
+
+
+def show_panel(topic: str, content: Json) -> Message:
+    """Have the panels of pages show something about a topic, in place of what they showed about it."""
+    return Message("show_panel", topic, content)
+
 
 def set_object(path: str, three_object: Json) -> Message:
     """Draw a three.js object at `path`, in place of the one that was there."""

@@ -6,11 +6,19 @@ so that it is right in every page, also while an animation runs or is scrubbed.
 
 from __future__ import annotations
 
+from importlib import resources
 from string import Template
+
+
+def _file(name: str) -> str:
+    """A file of the folder `page`, which the live page consists of."""
+    return resources.files(__package__).joinpath("page", name).read_text(encoding="utf-8")
+
 
 STYLE = """
   html, body { margin: 0; height: 100%; background: #05263a; overflow: hidden; }
   #meshcat-pane { width: 100vw; height: 100vh; overflow: hidden; }
+  .dg.main { display: none !important; }  /* meshcat's own list of everything in the scene */
   #caption {
     position: absolute; left: 20px; top: 16px; color: #f2fbff; pointer-events: none;
     font: 15px/1.4 system-ui, sans-serif; text-shadow: 0 1px 3px #00131e;
@@ -47,9 +55,10 @@ CAPTION_SCRIPT = """
 
   function update_caption() {
     const depth = node("world", "vehicle").position.z;
-    const cell = node("world", "floor", "sand", "<object>").userData.cell;
+    const {cell, afloat} = node("world", "floor", "sand", "<object>").userData;
+    const place = afloat ? "height " + (-depth).toFixed(2) : "depth " + depth.toFixed(2);
     show("clock", node("world", "clock").position.x.toFixed(1) + " s");
-    show("details", "depth " + depth.toFixed(2) + " m" + (cell ? " · grid " + cell + " m" : ""));
+    show("details", place + " m" + (cell ? " · grid " + cell + " m" : ""));
     requestAnimationFrame(update_caption);
   }
   update_caption();
@@ -97,7 +106,7 @@ REPLAY_SCRIPT = """
 """
 
 CONTROLS_SCRIPT = """
-  const animator = viewer.animator;
+  const animator = window.animator = viewer.animator;  // a page around this one may play and pause it
   const toggle = () => animator.playing ? animator.pause() : animator.play();
   const seek = (time) => { animator.pause(); animator.seek(time); animator.display_progress(time); };
   const trail = node("world", "trail", "<object>").geometry;
@@ -149,8 +158,16 @@ def _inline(script: str) -> str:
 
 SERVED_MESHCAT = '<script src="main.min.js"></script>\n'
 
+PANEL_STYLE = f"<style>{_file('panel.css')}</style>\n"
+
 LIVE_PAGE = _page(
-    "dq-marine", CAPTION.replace("$title", ""), SERVED_MESHCAT, _inline(LIVE_SCRIPT + CAPTION_SCRIPT)
+    "dq-marine",
+    CAPTION.replace("$title", "") + PANEL_STYLE + _file("panel.html"),
+    SERVED_MESHCAT,
+    _inline(LIVE_SCRIPT + CAPTION_SCRIPT),
+    _inline(_file("glide.js")),
+    _inline(_file("panel.js")),
+    _inline(_file("view.js")),
 )
 CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT))
 

@@ -27,6 +27,7 @@ import tornado.ioloop
 import tornado.netutil
 import tornado.routing
 import tornado.web
+import umsgpack
 import zmq
 from meshcat.servers.zmqserver import (
     MESHCAT_COMMANDS,
@@ -38,17 +39,18 @@ from zmq.eventloop.zmqstream import ZMQStream
 
 from dq_marine.viewer.libraries import meshcat_page_folder
 from dq_marine.viewer.transport.pages import CAPTURE_PAGE, LIVE_PAGE
+from dq_marine.viewer.transport.panel_socket import POLICY_VIOLATION, PanelHub, PanelSocket
 
 LOOPBACK = "127.0.0.1"
 LOOPBACK_NAMES = r"^(127\.0\.0\.1|localhost)$"
 ANY_FREE_PORT = 0
-KINDS = frozenset(MESHCAT_COMMANDS) | {"capture_image"}
+SHOW_PANEL, TAKE_WORDS = "show_panel", "take_words"
+"""Messages about the panels of pages: what they are to show, and a question for what was said by them."""
+
+KINDS = frozenset(MESHCAT_COMMANDS) | {"capture_image", SHOW_PANEL, TAKE_WORDS}
 """Messages that are carried out."""
 
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
-POLICY_VIOLATION = 1008
-"""Status of a websocket that is closed because of what came through it (RFC 6455, section 7.4.1)."""
-
 LARGEST_MESSAGE = 256 * 2**20
 """Bytes in a message from a page; a picture of 8000 x 8000 pixels fits in."""
 
@@ -107,6 +109,7 @@ class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has n
         """
         self._secret_key, self._path = secret_key, path
         self.wants_picture = False
+        self._panels = PanelHub()
         super().__init__(zmq_url=f"tcp://{LOOPBACK}:*", host=LOOPBACK, port=ANY_FREE_PORT)
         self.web_url = f"http://{LOOPBACK}:{self.app.port}/{path}/"
 
@@ -118,6 +121,7 @@ class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has n
         folder = {"path": str(meshcat_page_folder())}
         routes = [
             (rf"/{self._path}/socket", PageSocket, {"bridge": self}),
+            (rf"/{self._path}/panel", PanelSocket, {"hub": self._panels}),
             (rf"/{self._path}/", PageHandler, {"page": LIVE_PAGE}),
             (rf"/{self._path}/capture", PageHandler, {"page": CAPTURE_PAGE}),
             (rf"/{self._path}/(.*)", StaticFileHandlerNoCache, folder),
@@ -138,15 +142,21 @@ class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has n
     def handle_zmq(self, frames: list[bytes]) -> None:
         """Carry a message out, or say what is wrong with it."""
         try:
-            kind, path, _content = frames
+            kind, path, content = frames
             known = kind.decode() in KINDS and path.decode() is not None
         except ValueError:
             known = False
         if not known:
             self.zmq_socket.send(b"error: not a message of meshcat's protocol")
             return
-        self.wants_picture = kind == b"capture_image"
-        super().handle_zmq(frames)
+        if kind.decode() == TAKE_WORDS:
+            self.zmq_socket.send(self._panels.take_words())
+        elif kind.decode() == SHOW_PANEL:
+            self._panels.show(path.decode(), umsgpack.unpackb(content))
+            self.zmq_socket.send(b"ok")
+        else:
+            self.wants_picture = kind == b"capture_image"
+            super().handle_zmq(frames)
 
     def give_picture(self, picture: bytes) -> None:
         """Answer the request for a picture."""

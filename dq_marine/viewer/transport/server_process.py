@@ -15,7 +15,7 @@ from typing import Any
 
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.libraries import drawing_library, meshcat_page_folder
-from dq_marine.viewer.transport.messages import CAPTURE_IMAGE, Message
+from dq_marine.viewer.transport.messages import CAPTURE_IMAGE, TAKE_WORDS, Message
 
 START_TIMEOUT = 30.0
 REPLY_TIMEOUT = 10.0
@@ -77,6 +77,15 @@ class ServerProcess:
         answer = self._request(message, REPLY_TIMEOUT)
         if answer != b"ok":
             raise ViewerError(f"the viewer's server refused {message.kind!r}: {answer!r}")
+
+    def take_words(self) -> list[dict[str, Any]]:
+        """What was said by the panels of pages since the last call, oldest first: names and plain values.
+
+        Raises:
+            ViewerError: the server is closed or does not answer.
+        """
+        words: list[dict[str, Any]] = json.loads(self._request(TAKE_WORDS, REPLY_TIMEOUT))
+        return words
 
     def capture(self, timeout: float, check: Callable[[], None]) -> bytes:
         """A picture of what the connected page shows after all messages sent so far.

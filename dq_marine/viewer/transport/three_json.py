@@ -36,6 +36,7 @@ class Look:
         lit: otherwise it is shown in its plain colour, whatever the light.
         foggy: it fades into the water with distance.
         both_sides: it can be seen from its back, too.
+        yielding: where it coincides with something else, that is seen in its place.
     """
 
     opacity: float = 1.0
@@ -43,6 +44,7 @@ class Look:
     lit: bool = True
     foggy: bool = True
     both_sides: bool = False
+    yielding: bool = False
 
     def material(self) -> Json:
         """As a three.js material that takes its colours from the vertices."""
@@ -59,6 +61,8 @@ class Look:
             material["specular"] = 0x333333 if self.shininess else 0x000000
         if self.both_sides:
             material["side"] = DOUBLE_SIDED
+        if self.yielding:
+            material |= {"polygonOffset": True, "polygonOffsetFactor": 2.0, "polygonOffsetUnits": 8.0}
         return material
 
 

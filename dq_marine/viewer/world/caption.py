@@ -15,14 +15,15 @@ TEXT_COLOR = (242, 251, 255)
 OUTLINE_COLOR = (0, 28, 42)
 
 
-def write_caption(picture: Any, snapshot: Snapshot) -> None:
-    """Write time and depth into the top left corner of a Pillow picture."""
+def write_caption(picture: Any, snapshot: Snapshot, *, afloat: bool) -> None:
+    """Write time and depth, or the height of what floats, into the top left corner of a Pillow picture."""
     draw = drawing_library("PIL.ImageDraw").Draw(picture)
     fonts = drawing_library("PIL.ImageFont")
     margin = 0.03 * picture.height
     top = margin
     depth = float(snapshot.position_ned[2])
-    lines = [(f"{snapshot.time:.1f} s", CLOCK_SHARE), (f"depth {depth:.2f} m", DETAIL_SHARE)]
+    place = f"height {-depth:.2f} m" if afloat else f"depth {depth:.2f} m"
+    lines = [(f"{snapshot.time:.1f} s", CLOCK_SHARE), (place, DETAIL_SHARE)]
     for text, share in lines:
         size = max(share * picture.height, 8.0)
         draw.text(

@@ -99,7 +99,7 @@ class Drawing:
         scale, surroundings = self._scale, surroundings_of(self._shape)
         return [
             *draw_water(surroundings, scale.sight),
-            *draw_floor(scale),
+            *draw_floor(scale, afloat=self._shape.floats),
             *draw_surface(scale, surroundings),
             *(draw_specks(scale) if surroundings.specks else ()),
             *draw_shadow(self._shape),
@@ -120,10 +120,10 @@ class Drawing:
         north, east, down = vector3(anchor)
         pose = Placement(vector3(position), quaternion_wxyz(snapshot.quaternion_body_to_ned))
         return {
+            CLOCK: Placement((snapshot.time, 0.0, 0.0)),  # first: by it the live page knows what may glide
             WORLD: Placement((-north, east, down), NED_TO_Z_UP),
             VEHICLE: pose,
             THRUST: thrust_placement(snapshot, self._shape, pose.rotation_matrix()),
-            CLOCK: Placement((snapshot.time, 0.0, 0.0)),
             **_goal_placements(snapshot),
             **self._things.placements(snapshot),
             **current_placements(snapshot, self._shape),

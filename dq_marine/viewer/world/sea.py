@@ -70,13 +70,13 @@ class SeaScale:
         return 0.8 * self.half_sheet
 
 
-def draw_floor(scale: SeaScale) -> list[Message]:
-    """A level, sandy sea floor with a grid, to be placed at its depth."""
+def draw_floor(scale: SeaScale, *, afloat: bool) -> list[Message]:
+    """A level, sandy sea floor with a grid, to be placed at its depth, for a vehicle that floats or does not."""
     sand, grid = f"{FLOOR}/sand", f"{FLOOR}/grid"
     sheet = _sheet(scale)
     colors = rgb(SAND) * _mottle(sheet, scale.period, depth=0.06)
-    # The page writes the size of a cell next to the clock.
-    sand_json = surface(sand, sheet, colors, SAND_LOOK, {"cell": scale.cell})
+    # The page writes the size of a cell, and the vehicle's height or depth, next to the clock.
+    sand_json = surface(sand, sheet, colors, SAND_LOOK, {"cell": scale.cell, "afloat": afloat})
     grid_json = painted_surface(grid, [Painted(_grid(scale), GRID)], SAND_LOOK)
     return [set_object(sand, sand_json), set_object(grid, grid_json)]
 

@@ -47,6 +47,12 @@ class Page:
     def clear_trail(self) -> None:
         pass
 
+    def show_controls(self, groups: Any) -> None:
+        pass
+
+    def events(self) -> list[Any]:
+        return []
+
     def close(self) -> None:
         self.closed = True
 
@@ -161,15 +167,16 @@ def test_files_that_cannot_be_are_refused(tmp_path: Path) -> None:
         flown(plan, Outputs(trajectory=tmp_path / "flight.txt"))
 
 
-def test_demo_writes_both_files_and_says_where(tmp_path: Path, no_display: None) -> None:
+def test_demo_writes_its_files_and_says_where(tmp_path: Path, no_display: None) -> None:
     console = Console(file=io.StringIO(), width=200)
     demo.run_demo(tmp_path / "demo", console)
     text = console.file.getvalue()  # type: ignore[attr-defined]
-    for name in ("replay.html", "errors.png"):
+    for name in (*(flight.file for flight in demo.FLIGHTS), "index.html", "errors.png"):
         assert (tmp_path / "demo" / name).stat().st_size > 10_000
         assert str(tmp_path / "demo" / name) in text
     assert "2.000 m" in text
     assert "settled" in text
+    assert "sides kept" in text
     assert "Now the same, live" not in text
 
 
@@ -177,6 +184,7 @@ def test_demo_goes_live_where_there_is_a_display(
     tmp_path: Path, page: Page, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(demo, "display_present", lambda: True)
+    monkeypatch.setattr(demo, "FLIGHTS", (demo.STATION,))
     demo.run_demo(tmp_path, Console(file=io.StringIO()))
     assert page.times
     assert page.closed

@@ -1,5 +1,7 @@
 """Environments in currents that vary: what is drawn, what is told, what stays when something is refused."""
 
+import copy
+
 import gymnasium as gym
 import numpy as np
 import pytest
@@ -82,3 +84,69 @@ def test_steady_currents_draw_nothing_in_a_period():
     before = env.np_random.bit_generator.state
     env.step(np.zeros(6, np.float32))
     assert env.np_random.bit_generator.state == before
+
+
+# Currents that are turned in mid-episode
+
+
+@pytest.fixture
+def in_a_current():
+    env = gym.make("dq_marine/StationKeeping-v0", current=0.3, disable_env_checker=True).unwrapped
+    env.reset(seed=2)
+    for _ in range(10):
+        env.step(np.full(6, 0.4, np.float32))
+    return env
+
+
+def test_a_current_that_is_turned_leaves_the_velocity_over_ground(in_a_current):
+    env = in_a_current
+    over_ground, observation = env.velocity_body, env.observation
+    env.set_current((0.5, 0.2, -0.1))
+    assert env.velocity_body == pytest.approx(over_ground, abs=1e-14)
+    assert np.array_equal(env.observation, observation)
+    assert env.episode.current_ned.tolist() == [0.5, 0.2, -0.1]
+    assert env.velocity_through_water != pytest.approx(over_ground[:3], abs=0.1)
+    _, _, _, _, info = env.step(np.zeros(6, np.float32))
+    assert info["current_ned"].tolist() == [0.5, 0.2, -0.1]
+
+
+def test_a_current_that_is_turned_goes_on_as_one_that_was_always_there(in_a_current):
+    """Saved and restored, and begun in it with the same motion: the same flight."""
+    env = in_a_current
+    env.set_current((0.5, 0.2, -0.1))
+    other = gym.make("dq_marine/StationKeeping-v0", current=0.3, disable_env_checker=True).unwrapped
+    other.reset(
+        seed=2,
+        options={
+            "current": [0.5, 0.2, -0.1],
+            "position": env.position_ned,
+            "quaternion": env.quaternion_body_to_ned,
+            "velocity": env.velocity_body,
+        },
+    )
+    twin = copy.deepcopy(env)
+    for _ in range(50):
+        for one in (env, other, twin):
+            one.step(np.full(6, -0.2, np.float32))
+    assert np.array_equal(twin.position_ned, env.position_ned)
+    assert other.position_ned == pytest.approx(env.position_ned, abs=1e-9)
+    assert other.velocity_body == pytest.approx(env.velocity_body, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("current", "complaint"),
+    [((np.nan, 0, 0), "current_ned"), ((0, 0), "current_ned"), ((1e9, 0, 0), "current_ned")],
+)
+def test_a_wrong_current_changes_nothing(in_a_current, current, complaint):
+    before = in_a_current.get_state()
+    with pytest.raises(InvalidInputError, match=complaint):
+        in_a_current.set_current(current)
+    assert data_equivalence(before, in_a_current.get_state(), exact=True)
+
+
+@pytest.mark.parametrize("current", [0.0, {"standard_deviation": 0.1, "correlation_time": 5.0}])
+def test_water_that_is_still_or_moves_by_itself_cannot_be_turned(current):
+    env = gym.make("dq_marine/StationKeeping-v0", current=current, disable_env_checker=True).unwrapped
+    env.reset(seed=0)
+    with pytest.raises(InvalidInputError, match="make it with current="):
+        env.set_current((0.1, 0.0, 0.0))

@@ -102,6 +102,7 @@ def test_who_is_passed_to_starboard_where_the_rules_say_port_is_no_success():
     assert not info["is_success"]
 
 
+@pytest.mark.sweep
 def test_lanes_with_a_case_are_single_environments_bit_for_bit():
     given = {"case": 12, "max_episode_steps": 90}
     assert_flights_agree(

@@ -36,7 +36,7 @@ class SlowPage:
 @pytest.fixture
 def page(monkeypatch):
     slow = SlowPage()
-    monkeypatch.setattr("dq_marine.envs.vector.vector_env.open_page", lambda shape: slow)
+    monkeypatch.setattr("dq_marine.envs.vector.vector_env.open_page", lambda shape, title: slow)
     return slow
 
 

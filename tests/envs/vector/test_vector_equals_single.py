@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.environments import StationKeepingEnv
 from support.fleet import everything
+from support.listening_task import TASK as LISTENING
 from support.separate import (
     Separate,
     agreeing_reports,
@@ -44,6 +45,17 @@ def test_flights_are_the_same_for_any_number_of_environments_and_threads(count, 
     limits = {"max_episode_steps": 20, "workspace_radius": 2.5}
     envs = gym.make_vec(ID, num_envs=count, threads=threads, **limits)
     assert_flights_agree(envs, Separate(count, **limits), 70, seed=count)
+
+
+def test_a_tasks_own_instruments_draw_the_same_errors():
+    """What `sense` draws, and how often a reading is lost, in every lane and after a reset."""
+    envs, separate = (
+        gym.make_vec(LISTENING, num_envs=5, max_episode_steps=40),
+        Separate(5, LISTENING, max_episode_steps=40),
+    )
+    assert_flights_agree(envs, separate, 100, seed=4)
+    lost = [env.unwrapped.measured["lost"] for env in separate.envs]
+    assert 0.0 < max(lost) < 40.0
 
 
 GAUSS_MARKOV = {"mean": (0.1, 0.0, 0.0), "standard_deviation": 0.2, "correlation_time": 5.0}

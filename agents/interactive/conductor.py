@@ -1,0 +1,204 @@
+"""The conductor: an agent that lets a person play, pause and step a flight, and choose who flies."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from gymnasium.error import ResetNeeded
+
+from dq_marine.agents.controllers.baselines import Agent
+from dq_marine.agents.environments import marine
+from dq_marine.agents.evaluation.episodes import FlightEndedError
+from dq_marine.agents.interactive.controls import (
+    AGENT,
+    CURRENT,
+    HOLD,
+    POWER,
+    QUIT,
+    RESET,
+    SEED,
+    STICK,
+    flight_controls,
+    stick_positions,
+)
+from dq_marine.agents.interactive.helm import Helm
+from dq_marine.agents.interactive.readings import readings
+from dq_marine.envs.core.marine_env import Action, MarineEnv
+from dq_marine.envs.core.observation import Observation
+from dq_marine.errors import InvalidInputError
+from dq_marine.viewer.controls import LEFT, Event
+from dq_marine.viewer.live import LiveViewer
+from dq_marine.viewer.playback import PLAYING, STEP, Playback
+
+HELM = "helm"
+"""What the helm is called among the agents."""
+
+DRAWN_EVERY, READ_EVERY = 1.0 / 30.0, 0.1
+"""Time on the wall between pictures, and between readings [s]; a fast flight draws less often than it steps."""
+
+
+class Conductor:
+    """Flies by the agent that a person has chosen, when and as fast as that person wants.
+
+    Attributes:
+        seed: of the next episode.
+        quitting: whether the person has had enough.
+        restarting: whether the person ended the episode, to have another.
+    """
+
+    def __init__(
+        self,
+        viewer: LiveViewer,
+        agents: Mapping[str, Agent],
+        helm: Helm,
+        *,
+        seed: int,
+        sleep: Callable[[float], None] = time.sleep,
+    ) -> None:
+        """Take who can fly; the first of them does at the beginning.
+
+        Args:
+            viewer: shows the flight, and the panel.
+            agents: by name, in the order in which they are offered; the helm among them.
+            helm: does what the stick says.
+            seed: of the first episode.
+            sleep: waits for so many seconds.
+        """
+        self.seed, self.quitting, self.restarting = seed, False, False
+        self._viewer, self._agents, self._helm = viewer, dict(agents), helm
+        self._playback = Playback(sleep=sleep)
+        self._chosen = next(iter(self._agents))
+        self._current: tuple[float, float] | None = None
+        self._drawn_at = self._read_at = -np.inf
+        self._env: MarineEnv | None = None
+        self._does: dict[str, Callable[[Any], None]] = {
+            RESET: lambda _: self._restart(),
+            QUIT: lambda _: self._quit(),
+            SEED: self._take_seed,
+            AGENT: self._choose,
+            STICK: self._move_stick,
+            LEFT: lambda _: self._move_stick(None),
+            POWER: lambda power: setattr(helm, "power", power),
+            HOLD: lambda hold: setattr(helm, "hold", hold and helm.can_hold),
+            CURRENT[0]: lambda speed: self._turn_current(speed, None),
+            CURRENT[1]: lambda bearing: self._turn_current(None, bearing),
+        }
+
+    def reset(self, env: gym.Env[Any, Any]) -> None:
+        """Show the beginning of an episode, and the controls that its environment has."""
+        inner = self._env = marine(env)
+        self.restarting, self._current = False, None
+        for agent in self._agents.values():
+            agent.reset(env)
+        self._playback.begin()
+        self._viewer.clear_trail()
+        self._viewer.show_controls(
+            flight_controls(
+                inner,
+                tuple(self._agents),
+                self._chosen,
+                seed=self.seed,
+                playback=self._playback,
+                helm=self._helm,
+            )
+        )
+        self._viewer.show_notice("")
+        self._show(at_once=True)
+
+    def act(self, observation: Observation) -> Action:
+        """Return the chosen agent's action, once the person lets the flight go on.
+
+        Raises:
+            FlightEndedError: the person wants another episode, or none.
+        """
+        self._show(at_once=not self._playback.playing)
+        self._playback.wait(self._flying.time, self._hear)
+        return self._agents[self._chosen].act(observation)
+
+    def goes_on_after(self, notice: str) -> bool:
+        """Show how an episode ended, and wait; return whether the person wants another one."""
+        self._playback.take(Event(PLAYING, False))
+        self._viewer.show_values({PLAYING: False})
+        self._viewer.show_notice(notice)
+        self._show(at_once=True)
+        try:
+            self._playback.wait(self._flying.time, self._hear)
+        except FlightEndedError:
+            pass
+        except KeyboardInterrupt:
+            self.quitting = True
+        self._playback.take(Event(PLAYING, True))
+        return not self.quitting
+
+    @property
+    def _flying(self) -> MarineEnv:
+        """The environment of the episode under way."""
+        if self._env is None:
+            raise ResetNeeded("the conductor has no flight yet; reset it first")
+        return self._env
+
+    # What a person does
+
+    def _hear(self) -> None:
+        """Do what was asked for.
+
+        Raises:
+            FlightEndedError: that was to end the episode.
+        """
+        events: list[Event] = self._viewer.events()
+        for event in events:
+            self._playback.take(event)
+            if event.name in self._does:
+                self._does[event.name](event.value)
+        if any(event.name == STEP for event in events):
+            self._viewer.show_values({PLAYING: False})
+        if self.restarting or self.quitting:
+            raise FlightEndedError
+
+    def _restart(self) -> None:
+        self.restarting = True
+
+    def _quit(self) -> None:
+        self.quitting = True
+
+    def _take_seed(self, seed: int) -> None:
+        self.seed = seed
+
+    def _choose(self, name: str) -> None:
+        self._chosen = name
+        self._agents[name].reset(self._flying)
+
+    def _move_stick(self, positions: tuple[float, ...] | None) -> None:
+        self._helm.stick = stick_positions(self._flying, positions)
+
+    def _turn_current(self, speed: float | None, bearing: float | None) -> None:
+        env = self._flying
+        north, east, _ = env.episode.current_ned
+        was_speed, was_bearing = self._current or (
+            float(np.hypot(north, east)),
+            float(np.degrees(np.arctan2(east, north))),
+        )
+        self._current = (
+            was_speed if speed is None else speed,
+            was_bearing if bearing is None else bearing,
+        )
+        angle = np.radians(self._current[1])
+        try:
+            env.set_current((self._current[0] * np.cos(angle), self._current[0] * np.sin(angle), 0.0))
+        except InvalidInputError as error:
+            self._viewer.show_notice(str(error))
+
+    # What a person sees
+
+    def _show(self, *, at_once: bool) -> None:
+        env, now = self._flying, time.monotonic()
+        if at_once or now - self._drawn_at >= DRAWN_EVERY:
+            self._viewer.draw(env.snapshot())
+            self._drawn_at = now
+        if at_once or now - self._read_at >= READ_EVERY:
+            self._viewer.show_readings(env.time, readings(env))
+            self._read_at = now

@@ -1,0 +1,176 @@
+"""A person conducts a flight: plays, pauses, steps, restarts, chooses who flies, turns the current."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+import pytest
+from gymnasium.error import ResetNeeded
+
+import dq_marine  # noqa: F401 - registers
+from dq_marine.agents.controllers.baselines import ZeroAgent
+from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, with_keywords
+from dq_marine.agents.evaluation.flight import FlightPlan, Outputs
+from dq_marine.agents.interactive import flying
+from dq_marine.agents.interactive.conductor import HELM, Conductor
+from dq_marine.agents.interactive.controls import AGENT, CURRENT, HOLD, POWER, QUIT, RESET, SEED, STICK
+from dq_marine.agents.interactive.helm import Helm
+from dq_marine.viewer.controls import LEFT, Event, Panel
+from dq_marine.viewer.pacing import RealTimePacer
+from dq_marine.viewer.playback import PLAYING, STEP
+
+STILL = with_keywords(DEFAULT_ENVIRONMENT, current=0.0)
+
+
+class Page:
+    """Stands in for the live viewer: at each look it hands over the next events of a script."""
+
+    url = "http://127.0.0.1:7000"
+
+    def __init__(self, script: list[list[Event]]) -> None:
+        self.script, self.panel = script, Panel(())
+        self.times: list[float] = []
+        self.notices: list[str] = []
+        self.values: list[dict[str, Any]] = []
+        self.readings: dict[str, Any] = {}
+
+    def __enter__(self) -> Page:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def draw(self, snapshot: Any) -> None:
+        self.times.append(snapshot.time)
+
+    def clear_trail(self) -> None:
+        pass
+
+    def show_controls(self, groups: Any) -> None:
+        self.panel = Panel(groups)
+
+    def show_values(self, values: dict[str, Any]) -> None:
+        self.values.append(values)
+
+    def show_readings(self, time: float, groups: Any) -> None:
+        self.readings = dict(groups)
+
+    def show_notice(self, text: str) -> None:
+        self.notices.append(text)
+
+    def events(self) -> list[Event]:
+        return self.script.pop(0) if self.script else [Event(QUIT)]
+
+
+@pytest.fixture(autouse=True)
+def no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(RealTimePacer, "wait_until", lambda self, time: None)
+
+
+@pytest.fixture
+def flight(monkeypatch: pytest.MonkeyPatch) -> Callable[..., tuple[Any, Page]]:
+    """Fly by a script of events: the last episode, and the page."""
+
+    def fly(script: list[list[Event]], *, seconds: float = 3.0, **keywords: Any) -> tuple[Any, Page]:
+        page = Page(script)
+        monkeypatch.setattr(flying, "open_page", lambda shape, title: page)
+        offer = keywords.pop("offer", lambda env: {"zero": ZeroAgent(6)})
+        environment = keywords.pop("environment", DEFAULT_ENVIRONMENT)
+        plan = FlightPlan(environment, seconds=seconds, seed=4)
+        episode = flying.fly_interactively(
+            plan, offer, keywords.pop("outputs", Outputs()), title="", **keywords
+        )
+        return episode, page
+
+    return fly
+
+
+def test_it_plays_until_the_person_quits(flight) -> None:
+    episode, page = flight([[]] * 12)
+    assert len(episode.actions) == 12
+    assert page.times[0] == 0.0
+
+
+def test_paused_it_goes_step_by_step(flight) -> None:
+    script = [[Event(PLAYING, False)], [], [Event(STEP)], [], [], [Event(STEP), Event(STEP)], [], []]
+    episode, page = flight(script)
+    assert len(episode.actions) == 3
+    assert {PLAYING: False} in page.values
+    assert page.times[-1] == pytest.approx(0.3)  # the state between two steps is shown at once
+
+
+def test_another_episode_with_another_seed(flight) -> None:
+    episode, page = flight([[], [], [Event(SEED, 11), Event(RESET)], [], []])
+    assert episode.seed == 11
+    assert len(episode.actions) == 2
+    assert page.times.count(0.0) >= 2
+
+
+def test_at_its_end_an_episode_waits_for_play_and_says_how_it_went(flight) -> None:
+    script = [[]] * 10 + [[]] * 5 + [[Event(PLAYING, True)]] + [[]] * 3
+    episode, page = flight(script, seconds=1.0)
+    assert len(episode.actions) == 3
+    assert any("The task is not done after 1.0 s" in notice for notice in page.notices)
+
+
+def test_who_flies_is_chosen_by_name(flight) -> None:
+    script = [
+        [],
+        [Event(AGENT, HELM), Event(HOLD, False), Event(STICK, (1.0,) + (0.0,) * 5)],
+        [],
+        [Event(LEFT)],
+        [],
+    ]
+    episode, page = flight(script)
+    np.testing.assert_allclose(episode.actions[:, 0], [0.0, 1.0, 1.0, 0.0, 0.0])
+    agents = next(one for one in page.panel.described()[0]["controls"] if one["name"] == AGENT)
+    assert agents["options"] == ("zero", HELM)
+
+
+def test_at_the_helm_from_the_start_with_half_the_power(flight) -> None:
+    script = [[Event(HOLD, False), Event(POWER, 0.5), Event(STICK, (0.0, 0.0, 1.0, 0.0, 0.0, 0.0))], []]
+    episode, page = flight(script, teleoperated=True)
+    np.testing.assert_allclose(episode.actions[:, 2], 0.5)
+    agents = next(one for one in page.panel.described()[0]["controls"] if one["name"] == AGENT)
+    assert agents["options"] == (HELM, "zero")
+
+
+def test_the_current_that_is_chosen_is_felt(flight, tmp_path) -> None:
+    """A vehicle that drifts goes with the water in the end."""
+    script = [[Event(CURRENT[0], 0.8), Event(CURRENT[1], 90.0)]] + [[]] * 400
+    episode, page = flight(script, seconds=40.0, outputs=Outputs(trajectory=tmp_path / "flight.csv"))
+    east = episode.track.columns()["east_m"]
+    assert np.diff(east)[-1] / 0.1 == pytest.approx(0.8, rel=0.05)
+    assert [one.name for one in page.panel._controls.values()][-2:] == list(CURRENT)
+
+
+def test_without_a_current_there_is_no_slider_for_it(flight) -> None:
+    _, page = flight([[]], environment=STILL)
+    assert CURRENT[0] not in page.panel._controls
+
+
+def test_everything_can_be_read(flight) -> None:
+    _, page = flight([[]] * 3)
+    assert set(page.readings) == {"Task", "Motion", "Action", "Reward"}
+    units = {reading.label: reading.unit for group in page.readings.values() for reading in group}
+    assert units["position error"] == "m"
+    assert units["attitude error"] == "deg"
+    assert units["u, surge"] == "m/s"
+    assert units["depth"] == "m"
+    assert "effort" in units
+
+
+def test_other_baselines_are_offered_where_they_can_fly() -> None:
+    env = gym.make("dq_marine/StationKeeping-v0", disable_env_checker=True)
+    offered = flying.offered_agents(env, baselines=["zero"], runs=[], seed=0)
+    assert list(offered) == ["zero", "controller", "random"]
+
+
+def test_a_flight_must_have_begun() -> None:
+    env = gym.make("dq_marine/StationKeeping-v0", disable_env_checker=True)
+    helm = Helm(env)
+    with pytest.raises(ResetNeeded):
+        Conductor(Page([]), {HELM: helm}, helm, seed=0).act(None)  # type: ignore[arg-type]

@@ -1,0 +1,101 @@
+"""The whole way, in a real browser: the command, the page, a person's keys, the vehicle."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+from viewer.devtools import Page, open_page
+
+pytestmark = pytest.mark.browser
+
+READY = "document.querySelectorAll('#panel-controls details').length > 1"
+
+GOAL_FROM_VEHICLE = """(() => {
+  const at = (...path) => viewer.scene_tree.find(["world", ...path]).object;
+  const vehicle = at("vehicle"), goal = at("goal", "ghost");
+  return goal.position.clone().sub(vehicle.position).applyQuaternion(vehicle.quaternion.clone().invert());
+})()"""
+
+
+@contextmanager
+def flight(*options: str) -> Iterator[tuple[subprocess.Popen[str], Page]]:
+    """The command `dq-marine fly`, and its page."""
+    command = [sys.executable, "-m", "dq_marine", "fly", *options]
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ
+    )
+    try:
+        assert process.stderr is not None
+        said = process.stderr.readline()
+        address = re.search(r"http://\S+", said)
+        assert address, said
+        with open_page(address[0], ready=READY, width=1000, height=700) as page:
+            yield process, page
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def press(page: Page, kind: str, code: str) -> None:
+    page.evaluate(f"document.dispatchEvent(new KeyboardEvent('{kind}', {{code: '{code}', bubbles: true}}))")
+
+
+def reading(label: str) -> str:
+    """A JavaScript expression for the number that stands beside a label."""
+    rows = "[...document.querySelectorAll('#panel-readings .row')]"
+    row = f"{rows}.find((one) => one.firstChild.textContent === '{label}')"
+    return f"parseFloat({row}.querySelector('output').textContent)"
+
+
+def slide(page: Page, name: str, value: float) -> None:
+    slider = f"document.getElementById('control-{name}')"
+    page.evaluate(f"{slider}.value = {value}; {slider}.oninput()")
+
+
+def test_a_person_reaches_a_goal_by_the_keys(tmp_path: Path) -> None:
+    """Ahead or astern, to port or starboard, as a person would who looks where the goal is; then it is held there."""
+    trajectory = tmp_path / "flight.csv"
+    options = ["--teleop", "--set", "current=0", "--seconds", "600", "--trajectory", str(trajectory)]
+    start = ["--set", "start_radius=0", "--set", "goal_position=[0,0,8]"]
+    with flight(*options, *start, "--start-distance", "2") as (process, page):
+        page.wait_until(f"{reading('position error')} > 1.5")
+        slide(page, "speed", np.log(2.0))
+        for _ in range(400):
+            north, east, _ = page.evaluate(f"{GOAL_FROM_VEHICLE}.toArray()")
+            if np.hypot(north, east) < 0.25:
+                break
+            wanted = {"KeyW": north > 0.15, "KeyS": north < -0.15, "KeyE": east > 0.15, "KeyQ": east < -0.15}
+            for code, down in wanted.items():
+                press(page, "keydown" if down else "keyup", code)
+        for code in wanted:
+            press(page, "keyup", code)
+        page.wait_until(f"{reading('position error')} < 0.5")
+        page.evaluate("document.getElementById('control-quit').click()")
+        out, _ = process.communicate(timeout=120)
+        assert process.returncode == 0, out
+    assert "position error, end" in out
+    assert trajectory.stat().st_size > 1000
+
+
+def test_the_current_slider_moves_the_water(tmp_path: Path) -> None:
+    with flight("--panel", "--agent", "zero", "--current", "0.1", "--seed", "3") as (process, page):
+        slide(page, "speed", np.log(20.0))
+        slide(page, "current_bearing", 0.0)
+        slide(page, "current_speed", 1.0)
+        page.wait_until(f"{reading('north')} > 5.0")
+        arrow = "viewer.scene_tree.find(['world', 'current', '0']).object"
+        assert page.evaluate(f"{arrow}.matrixWorld.elements.slice(0, 3).some((one) => Math.abs(one) > 0)")
+        page.evaluate("document.getElementById('control-playing').click()")
+        page.wait_until("!document.getElementById('control-playing').checked")
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=120)
+    assert process.returncode == 0, out

@@ -1,0 +1,304 @@
+"""Every control of the panel, in a real browser: by mouse, keys and gamepad, and what is shown of the scene."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from numpy.testing import assert_allclose
+from viewer.devtools import Page, open_page
+from viewer.samples import ROV, snapshot, yawed
+
+from dq_marine.viewer import LiveViewer
+from dq_marine.viewer.controls import (
+    Axis,
+    Button,
+    Choice,
+    Group,
+    Number,
+    Slider,
+    Stick,
+    Switch,
+)
+from dq_marine.viewer.live import Reading
+
+pytestmark = pytest.mark.browser
+
+PATIENCE = 60.0
+GROUPS = (
+    Group(
+        "Flight",
+        (
+            Button("step", "Step", key="Period"),
+            Switch("playing", "play", True, key="Space"),
+            Choice("agent", "flown by", ("one", "two"), "one"),
+            Slider("speed", "speed", 0.1, 20.0, 1.0, 0.1, "x", logarithmic=True),
+            Number("seed", "seed", 0, 1000, 3),
+        ),
+    ),
+    Group(
+        "Helm",
+        (
+            Stick(
+                "stick", "helm", (Axis("astern, ahead", "KeyS", "KeyW", (3, -1)), Axis("b", "KeyA", "KeyD"))
+            ),
+        ),
+    ),
+)
+
+
+@pytest.fixture(scope="module")
+def viewer() -> Iterator[LiveViewer]:
+    with LiveViewer(ROV, title="An ROV") as shown:
+        shown.draw(snapshot(time=1.0))
+        shown.show_controls(GROUPS)
+        yield shown
+
+
+@pytest.fixture(scope="module")
+def page(viewer: LiveViewer) -> Iterator[Page]:
+    with open_page(viewer.url, width=1000, height=700) as shown:
+        shown.wait_until("document.querySelectorAll('#panel-controls details').length === 2")
+        shown.wait_until("viewer.scene_tree.find(['world', 'vehicle']).object.children.length > 0")
+        yield shown
+
+
+@pytest.fixture(autouse=True)
+def nothing_said_before(viewer: LiveViewer, page: Page) -> None:
+    next_event(viewer, None)
+
+
+def next_event(viewer: LiveViewer, name: str | None) -> Any:
+    """The value of the next event of a control; with None all that is there is passed over."""
+    deadline = time.monotonic() + (PATIENCE if name else 0.3)
+    while time.monotonic() < deadline:
+        for event in viewer.events():
+            if event.name == name:
+                return event.value
+        time.sleep(0.01)
+    assert name is None, f"{name} did not come"
+    return None
+
+
+def key(page: Page, kind: str, code: str, *, text: str = "") -> None:
+    page.evaluate(
+        f"document.dispatchEvent(new KeyboardEvent('{kind}', {{code: '{code}', key: '{text}', bubbles: true}}))"
+    )
+
+
+def element(name: str) -> str:
+    return f"document.getElementById('{name}')"
+
+
+def test_the_page_has_a_name_and_no_control_of_meshcats_own(page: Page) -> None:
+    page.wait_until(f"{element('title')}.textContent === 'An ROV'")
+    assert page.evaluate("document.title") == "An ROV - dq-marine"
+    hidden = (
+        "[...document.querySelectorAll('.dg.main')].every((one) => getComputedStyle(one).display === 'none')"
+    )
+    assert page.evaluate(hidden)
+
+
+def test_a_button_by_mouse_and_by_key(viewer: LiveViewer, page: Page) -> None:
+    page.evaluate(f"{element('control-step')}.click()")
+    assert next_event(viewer, "step") is None
+    key(page, "keydown", "Period")
+    assert next_event(viewer, "step") is None
+
+
+def test_a_switch_by_mouse_and_by_key_shows_what_it_is(viewer: LiveViewer, page: Page) -> None:
+    page.evaluate(f"{element('control-playing')}.click()")
+    assert next_event(viewer, "playing") is False
+    key(page, "keydown", "Space")
+    assert next_event(viewer, "playing") is True
+    viewer.show_values({"playing": False})
+    page.wait_until(f"{element('control-playing')}.checked === false")
+    viewer.show_values({"playing": True})
+    page.wait_until(f"{element('control-playing')}.checked === true")
+
+
+def test_a_choice(viewer: LiveViewer, page: Page) -> None:
+    page.evaluate(f"{element('control-agent')}.value = 'two'; {element('control-agent')}.onchange()")
+    assert next_event(viewer, "agent") == "two"
+
+
+def test_a_slider_in_equal_ratios(viewer: LiveViewer, page: Page) -> None:
+    slider = element("control-speed")
+    assert page.evaluate(f"{slider}.nextSibling.textContent") == "1.0 x"
+    middle = f"(Number({slider}.min) + Number({slider}.max)) / 2"
+    page.evaluate(f"{slider}.value = {middle}; {slider}.oninput()")
+    assert next_event(viewer, "speed") == pytest.approx((0.1 * 20.0) ** 0.5, abs=0.05)
+    assert page.evaluate(f"{slider}.nextSibling.textContent") == "1.4 x"
+
+
+def test_a_number(viewer: LiveViewer, page: Page) -> None:
+    page.evaluate(f"{element('control-seed')}.value = 77; {element('control-seed')}.onchange()")
+    assert next_event(viewer, "seed") == 77
+
+
+def test_a_stick_by_keys_springs_back(viewer: LiveViewer, page: Page) -> None:
+    key(page, "keydown", "KeyW")
+    assert next_event(viewer, "stick") == (1.0, 0.0)
+    key(page, "keydown", "KeyA")
+    assert next_event(viewer, "stick") == (1.0, -1.0)
+    key(page, "keyup", "KeyW")
+    assert next_event(viewer, "stick") == (0.0, -1.0)
+    page.evaluate("window.dispatchEvent(new Event('blur'))")  # keys that go up elsewhere are not heard
+    assert next_event(viewer, "stick") == (0.0, 0.0)
+
+
+def test_a_stick_by_mouse_springs_back(viewer: LiveViewer, page: Page) -> None:
+    slider = element("control-stick-1")
+    page.evaluate(f"{slider}.value = 0.5; {slider}.oninput()")
+    assert next_event(viewer, "stick") == (0.0, 0.5)
+    page.evaluate(f"{slider}.onchange()")
+    assert next_event(viewer, "stick") == (0.0, 0.0)
+
+
+def test_a_stick_by_gamepad(viewer: LiveViewer, page: Page) -> None:
+    page.evaluate("window.pad = {connected: true, axes: [0, 0.05, 0, -0.75], buttons: []}")
+    page.evaluate("navigator.getGamepads = () => [null, window.pad]")
+    assert next_event(viewer, "stick") == (0.75, 0.0)
+    page.evaluate("window.pad.axes = [0, 0, 0, 0.05]")  # within the dead zone
+    assert next_event(viewer, "stick") == (0.0, 0.0)
+    page.evaluate("navigator.getGamepads = () => []")
+
+
+def test_keys_while_a_number_is_typed_are_only_typed(viewer: LiveViewer, page: Page) -> None:
+    page.evaluate(
+        f"{element('control-seed')}.dispatchEvent(new KeyboardEvent('keydown', {{code: 'KeyW', bubbles: true}}))"
+    )
+    time.sleep(0.3)
+    assert not [event for event in viewer.events() if event.name == "stick"]
+
+
+def test_help_lists_the_keys(page: Page) -> None:
+    assert page.evaluate(f"{element('panel-help')}.hidden")
+    key(page, "keydown", "Slash", text="?")
+    assert not page.evaluate(f"{element('panel-help')}.hidden")
+    listed = page.evaluate(f"{element('panel-keys')}.innerText")
+    for explained in ("Step", "play", "astern, ahead", "next camera", "this list"):
+        assert explained in listed
+    page.evaluate(f"{element('panel-help-close')}.click()")
+    assert page.evaluate(f"{element('panel-help')}.hidden")
+
+
+def test_readings_and_their_history(viewer: LiveViewer, page: Page) -> None:
+    for second in range(5):
+        viewer.show_readings(float(second), {"Motion": (Reading("depth", 5.0 + second, "m"),)})
+    row = "[...document.querySelectorAll('#panel-readings .row')].find((one) => one.innerText.includes('depth'))"
+    page.wait_until(f"{row}.querySelector('output').textContent === '9.000 m'")
+    page.evaluate(
+        f"(() => {{ const c = {row}.querySelector('canvas'); c.onmousemove({{offsetX: 0.45 * c.clientWidth}}); }})()"
+    )
+    assert page.evaluate(f"{row}.querySelector('output').textContent") == "7.000 m at 2.0 s"
+    inked = (
+        f"(() => {{ const c = {row}.querySelector('canvas'); return [...c.getContext('2d')"
+        ".getImageData(0, 0, c.width, c.height).data].some((one) => one > 0); })()"
+    )
+    assert page.evaluate(inked)
+
+
+def test_a_notice(viewer: LiveViewer, page: Page) -> None:
+    viewer.show_notice("The task is done.")
+    page.wait_until(f"{element('notice')}.textContent === 'The task is done.'")
+    viewer.show_notice("")
+    page.wait_until(f"{element('notice')}.textContent === ''")
+
+
+def choose_camera(page: Page, name: str) -> None:
+    page.evaluate(f"{element('view-camera')}.value = '{name}'; {element('view-camera')}.onchange()")
+    page.evaluate(
+        "window.frames_seen = 0; (function count() { frames_seen++; requestAnimationFrame(count); })()"
+    )
+    page.wait_until("frames_seen > 3")
+
+
+def camera_from_vehicle(page: Page) -> list[float]:
+    """Where the camera is from the vehicle: north, up, east."""
+    return page.evaluate(
+        """(() => {
+          viewer.scene.updateMatrixWorld(true);
+          const at = (object) => object.matrixWorld.elements.slice(12, 15);
+          const vehicle = at(viewer.scene_tree.find(["world", "vehicle"]).object);
+          return at(viewer.camera).map((value, i) => value - vehicle[i]);
+        })()"""
+    )
+
+
+def test_cameras_stand_where_they_say(viewer: LiveViewer, page: Page) -> None:
+    viewer.draw(snapshot(time=2.0, quaternion_body_to_ned=yawed(0.0)))
+    page.wait_until(f"{element('clock')}.textContent === '2.0 s' && glide.at_rest()")
+    choose_camera(page, "chase")
+    north, up, east = camera_from_vehicle(page)
+    assert north < -1.0
+    assert up > 0.3
+    assert_allclose(east, 0.0, atol=1e-6)
+    choose_camera(page, "side")
+    north, up, east = camera_from_vehicle(page)
+    assert east > 1.0
+    assert_allclose(north, 0.0, atol=1e-6)
+    choose_camera(page, "top")
+    north, up, east = camera_from_vehicle(page)
+    assert up > 1.5
+    assert_allclose([north, east], 0.0, atol=1e-6)
+    choose_camera(page, "onboard")
+    north, up, east = camera_from_vehicle(page)
+    assert 0.2 < north < 0.5
+    choose_camera(page, "follow")
+
+
+def test_a_free_camera_stays_where_it_is_in_the_world(viewer: LiveViewer, page: Page) -> None:
+    viewer.draw(snapshot(time=3.0, position_ned=[0.0, 0.0, 5.0]))
+    page.wait_until(f"{element('clock')}.textContent === '3.0 s' && glide.at_rest()")
+    choose_camera(page, "free")
+    before = camera_from_vehicle(page)
+    viewer.draw(snapshot(time=4.0, position_ned=[4.0, -3.0, 6.0]))
+    page.wait_until(f"{element('clock')}.textContent === '4.0 s' && glide.at_rest()")
+    page.evaluate("frames_seen = 0")
+    page.wait_until("frames_seen > 3")
+    after = camera_from_vehicle(page)
+    # The vehicle went 4 m north, 3 m west and 1 m down.
+    assert_allclose([a - b for a, b in zip(after, before, strict=True)], [-4.0, 1.0, 3.0], atol=1e-6)
+    choose_camera(page, "follow")
+
+
+@pytest.mark.parametrize(
+    ("name", "path"), [("forces", "/world/thrust"), ("goal", "/world/goal"), ("trail", "/world/trail")]
+)
+def test_things_can_be_hidden(name: str, path: str, page: Page) -> None:
+    assert page.node(path, "visible") is True
+    page.evaluate(f"{element(f'view-{name}')}.click()")
+    assert page.node(path, "visible") is False
+    page.evaluate(f"{element(f'view-{name}')}.click()")
+    assert page.node(path, "visible") is True
+
+
+def test_on_a_telephone_the_scene_can_be_seen(viewer: LiveViewer) -> None:
+    with open_page(viewer.url, width=390, height=800) as page:
+        page.wait_until("document.querySelectorAll('#panel-controls details').length === 2")
+        assert page.evaluate(f"{element('panel')}.hidden")
+        page.evaluate(f"{element('panel-open')}.click()")
+        box = json.loads(page.evaluate(f"JSON.stringify({element('panel')}.getBoundingClientRect())"))
+        assert box["left"] >= 0.0
+        assert box["right"] <= page.evaluate("innerWidth")
+        assert box["height"] <= 0.56 * page.evaluate("innerHeight")
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_two_pages_at_once_and_one_that_is_loaded_again(viewer: LiveViewer, page: Page) -> None:
+    with open_page(viewer.url) as other:
+        other.wait_until("document.querySelectorAll('#panel-controls details').length === 2")
+        other.evaluate(f"{element('control-step')}.click()")
+        assert next_event(viewer, "step") is None
+        other.evaluate("window.old = true; setTimeout(() => location.reload())")
+        other.wait_until(
+            "!window.old && document.querySelectorAll('#panel-controls details').length === 2 && panel.connected()"
+        )
+        other.evaluate(f"{element('control-step')}.click()")
+        assert next_event(viewer, "step") is None
+    page.evaluate(f"{element('control-step')}.click()")
+    assert next_event(viewer, "step") is None
