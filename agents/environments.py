@@ -10,6 +10,7 @@ import gymnasium as gym
 
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.envs.core.marine_env import MarineEnv
+from dq_marine.envs.scenarios.model import Scenario
 from dq_marine.errors import InvalidInputError
 
 DEFAULT_ENVIRONMENT = EnvironmentSettings(id="dq_marine/StationKeeping-v0")
@@ -29,6 +30,18 @@ def make_environment(settings: EnvironmentSettings, **keywords: Any) -> gym.Env[
     with _refusals_of(settings.id, chosen):
         # The checker wrapper re-examines every step; the tests of the environments do that once.
         return gym.make(settings.id, disable_env_checker=True, **chosen)
+
+
+def space_shape(space: gym.Space[Any]) -> Any:
+    """Return the shape of a space, or of each part of one with goals."""
+    if isinstance(space, gym.spaces.Dict):
+        return {name: part.shape for name, part in space.items()}
+    return space.shape
+
+
+def scenario_settings(scenario: Scenario) -> EnvironmentSettings:
+    """Return the environment of a scenario."""
+    return EnvironmentSettings(id=scenario.definition.id, keywords=scenario.keywords)
 
 
 def make_environments(settings: EnvironmentSettings, count: int) -> gym.vector.VectorEnv[Any, Any, Any]:

@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib
 from collections.abc import Mapping
-from dataclasses import fields
 from typing import Any
 
 import gymnasium as gym
 
 from dq_marine.agents.settings import EnvironmentSettings
+from dq_marine.envs.core.keywords import check_known, writable_keywords
 from dq_marine.envs.core.registry import full_id, registered_tasks, task_named
 from dq_marine.errors import InvalidInputError
-from dq_marine.simulation.settings import Settings
-
-OTHERS = ("level", "reward", "max_episode_steps")
-"""Keywords of every environment that are neither those of `Settings` nor the task's own."""
-
-NOT_WRITTEN = ("forces",)
-"""Keywords of `Settings` that only Python can give."""
 
 
 def known_keywords(identifier: str) -> tuple[str, ...]:
@@ -45,8 +37,7 @@ def known_keywords(identifier: str) -> tuple[str, ...]:
         raise InvalidInputError(
             f"environment id = {identifier!r} is not one of dq_marine; give one that dq_marine.register_task knows"
         )
-    of_all = {one.name for one in fields(Settings)} | set(OTHERS)
-    return tuple(sorted((of_all | set(task_named(task).keywords)) - set(NOT_WRITTEN)))
+    return writable_keywords(task_named(task))
 
 
 def check_keywords(settings: EnvironmentSettings) -> None:
@@ -55,14 +46,7 @@ def check_keywords(settings: EnvironmentSettings) -> None:
     Raises:
         InvalidInputError: it does not know one, or is not registered; the message lists those that it takes.
     """
-    known = known_keywords(settings.id)
-    for name in settings.keywords:
-        if name not in known:
-            near = difflib.get_close_matches(name, known, n=1)
-            meant = f" (did you mean {near[0]}?)" if near else ""
-            raise InvalidInputError(
-                f"{settings.id} has no keyword {name!r}{meant}; it takes {', '.join(known)}"
-            )
+    check_known(settings.id, settings.keywords, known_keywords(settings.id))
 
 
 def with_changes(

@@ -5,6 +5,10 @@ from dq_marine.envs.core.definition import TaskDefinition as TaskDefinition
 from dq_marine.envs.core.module_task import define_task as define_task
 from dq_marine.envs.core.registry import register_task as register_task
 from dq_marine.envs.core.registry import unregister_task as unregister_task
+from dq_marine.envs.scenarios.environment import make_scenario as make_scenario
+from dq_marine.envs.scenarios.files import load_scenario as load_scenario
+from dq_marine.envs.scenarios.files import scenario_names as scenario_names
+from dq_marine.envs.scenarios.model import Scenario as Scenario
 from dq_marine.errors import BeyondValidityWarning as BeyondValidityWarning
 from dq_marine.errors import DQMarineError as DQMarineError
 from dq_marine.errors import InvalidInputError as InvalidInputError

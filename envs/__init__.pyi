@@ -13,4 +13,11 @@ from dq_marine.envs.core.registry import task_named as task_named
 from dq_marine.envs.core.registry import tasks_suiting as tasks_suiting
 from dq_marine.envs.core.registry import unregister_task as unregister_task
 from dq_marine.envs.registration import register_environments as register_environments
+from dq_marine.envs.scenarios.environment import ScenarioStart as ScenarioStart
+from dq_marine.envs.scenarios.environment import make_scenario as make_scenario
+from dq_marine.envs.scenarios.files import load_scenario as load_scenario
+from dq_marine.envs.scenarios.files import read_scenarios as read_scenarios
+from dq_marine.envs.scenarios.files import scenario_names as scenario_names
+from dq_marine.envs.scenarios.files import scenarios_of as scenarios_of
+from dq_marine.envs.scenarios.model import Scenario as Scenario
 from dq_marine.envs.vector.vector_env import MarineVectorEnv as MarineVectorEnv

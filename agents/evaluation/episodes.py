@@ -33,6 +33,7 @@ class Episode:
         reward_terms: by name, of each period, shape (n,) each; none if the environment names none.
         success: whether the task counts as done at the end.
         ended_early: whether the episode was terminated, say beyond the workspace.
+        collided: whether the vehicle has hit something; None of a task with nothing to hit.
         seed: that it was reset with.
         track: where the vehicle was, if that was asked for.
         notes: what a reader of the numbers should know.
@@ -47,6 +48,7 @@ class Episode:
     reward_terms: dict[str, Array]
     success: bool
     ended_early: bool
+    collided: bool | None = None
     seed: int = 0
     track: Track | None = None
     notes: tuple[str, ...] = ()
@@ -55,6 +57,17 @@ class Episode:
     def total_reward(self) -> float:
         """The return, undiscounted."""
         return math.fsum(self.rewards.tolist())
+
+    @property
+    def effort(self) -> float:
+        """The mean square of the actions, over axes and periods, 0 to 1."""
+        return float(np.mean(np.square(self.actions))) if self.actions.size else 0.0
+
+    @property
+    def action_change(self) -> float:
+        """How rough the actions are: root mean square of their change from period to period, over axes, 0 to 2."""
+        changes = np.diff(self.actions, axis=0)
+        return float(np.sqrt(np.mean(np.square(changes)))) if changes.size else 0.0
 
     @property
     def last_third(self) -> slice:
@@ -75,6 +88,20 @@ class Episode:
         if outside[-1]:
             return None
         return float(self.time[np.flatnonzero(outside)[-1] + 1]) if outside.any() else 0.0
+
+    def figures(self) -> dict[str, float]:
+        """Return what is compared between agents, by name, the unit at its end.
+
+        The return; each metric as its mean over the last third; effort and change of the actions; and of a task with
+        something to hit, 1 for an episode in which it was hit, else 0.
+        """
+        steady = {
+            metric.shown_name: float(metric.shown(self.measured[metric.name])[self.last_third].mean())
+            for metric in self.metrics
+        }
+        hit = {} if self.collided is None else {"collided": float(self.collided)}
+        own = {"effort": self.effort, "action_change": self.action_change}
+        return {"return": self.total_reward, **steady, **own, **hit}
 
     def columns(self) -> dict[str, Array]:
         """Return everything by name, the unit at its end, each of shape (n + 1,).
@@ -156,6 +183,7 @@ def fly_episode(
         reward_terms={name: _series(infos[1:], name) for name in reward_term_names(info)},
         success=bool(info.get(SUCCESS, False)),
         ended_early=terminated,
+        collided=inner.collided,
         seed=seed,
         track=followed,
         notes=validity.notes(np.array(through_water)) if validity is not None and through_water else (),

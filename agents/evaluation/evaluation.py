@@ -53,6 +53,9 @@ class Score:
         metrics: of the task, by name.
         success_rate: fraction of episodes at whose end the task counted as done.
         early_end_rate: fraction of episodes that were terminated, say beyond the workspace.
+        effort: mean square of an episode's actions.
+        action_change: root mean square of the change of its actions from period to period.
+        collision_rate: fraction of episodes in which the vehicle hit something; None where there is nothing to hit.
     """
 
     agent: str
@@ -61,6 +64,9 @@ class Score:
     metrics: dict[str, MetricScore]
     success_rate: float
     early_end_rate: float
+    effort: Spread
+    action_change: Spread
+    collision_rate: float | None
 
     def as_dict(self) -> dict[str, Any]:
         """Return the score as nested dictionaries, for JSON; the names of metrics have their unit at the end."""
@@ -68,7 +74,8 @@ class Score:
             one.metric.shown_name: {"final": asdict(one.final), "steady": asdict(one.steady)}
             for one in self.metrics.values()
         }
-        return vars(self) | {"returns": asdict(self.returns), "metrics": metrics}
+        spreads = {name: asdict(getattr(self, name)) for name in ("returns", "effort", "action_change")}
+        return vars(self) | spreads | {"metrics": metrics}
 
 
 def evaluate(
@@ -77,6 +84,7 @@ def evaluate(
     *,
     episodes: int,
     seed: int,
+    options: dict[str, Any] | None = None,
     after_episode: Callable[[str, Episode], None] | None = None,
     track: bool = False,
 ) -> list[Score]:
@@ -87,6 +95,7 @@ def evaluate(
         agents: by name.
         episodes: of each agent, at least 1.
         seed: of the first episode.
+        options: of the environment's reset.
         after_episode: called with the agent's name and the episode after each one, to tell progress or to keep it.
         track: whether episodes keep where the vehicle was.
     """
@@ -94,7 +103,7 @@ def evaluate(
     for name, agent in agents.items():
         flown = []
         for index in range(episodes):
-            flown.append(fly_episode(env, agent, seed=seed + index, track=track))
+            flown.append(fly_episode(env, agent, seed=seed + index, options=options, track=track))
             if after_episode is not None:
                 after_episode(name, flown[-1])
         scores.append(score(name, flown))
@@ -103,6 +112,7 @@ def evaluate(
 
 def score(name: str, episodes: Sequence[Episode]) -> Score:
     """Return the score of an agent that flew these episodes."""
+    hits = [episode.collided for episode in episodes if episode.collided is not None]
     return Score(
         agent=name,
         episodes=len(episodes),
@@ -110,6 +120,9 @@ def score(name: str, episodes: Sequence[Episode]) -> Score:
         metrics={metric.name: _metric_score(metric, episodes) for metric in episodes[0].metrics},
         success_rate=float(np.mean([episode.success for episode in episodes])),
         early_end_rate=float(np.mean([episode.ended_early for episode in episodes])),
+        effort=spread([episode.effort for episode in episodes]),
+        action_change=spread([episode.action_change for episode in episodes]),
+        collision_rate=float(np.mean(hits)) if hits else None,
     )
 
 

@@ -36,14 +36,14 @@ class FlightPlan:
 
     Attributes:
         environment: the task.
-        seconds: simulated time [s].
+        seconds: simulated time [s]; None for as long as the environment's episodes last.
         seed: of the episode; None for the first from 0 whose start is far from the goal.
         start_distance: from the goal [m], at the goal's depth; None draws the whole start.
         start: further options of the environment's reset.
     """
 
     environment: EnvironmentSettings
-    seconds: float = 30.0
+    seconds: float | None = 30.0
     seed: int | None = None
     start_distance: float | None = None
     start: dict[str, Any] = field(default_factory=dict)
@@ -203,20 +203,25 @@ def _check_files(outputs: Outputs) -> None:
 
 
 def _make(plan: FlightPlan, outputs: Outputs) -> gym.Env[Any, Any]:
-    """Return the environment with the plan's time limit in place of its own."""
+    """Return the environment with the plan's time limit, if it has one, in place of its own."""
     mode = "human" if outputs.live else None
-    inner = marine(make_environment(plan.environment, render_mode=mode, record=outputs.html is not None))
+    made = make_environment(plan.environment, render_mode=mode, record=outputs.html is not None)
+    if plan.seconds is None:
+        return made
+    inner = marine(made)
     if not inner.control_period <= plan.seconds <= LONGEST_FLIGHT:
         raise InvalidInputError(
             f"seconds = {plan.seconds:g}; give a time of at least one control period, {inner.control_period:g} s, and "
             f"at most {LONGEST_FLIGHT:g} s"
         )
-    return TimeLimit(inner, max_episode_steps=periods_of(plan, inner))
+    return TimeLimit(inner, max_episode_steps=round(plan.seconds / inner.control_period))
 
 
-def periods_of(plan: FlightPlan, env: MarineEnv) -> int:
-    """Return how many control periods a plan's flight has."""
-    return round(plan.seconds / env.control_period)
+def periods_of(plan: FlightPlan, env: gym.Env[Any, Any]) -> int | None:
+    """Return how many control periods a plan's flight has at most; None if an environment of its own has no limit."""
+    if plan.seconds is not None:
+        return round(plan.seconds / marine(env).control_period)
+    return None if env.spec is None else env.spec.max_episode_steps
 
 
 def _start_options(env: gym.Env[Any, Any], plan: FlightPlan, seed: int) -> dict[str, Any]:

@@ -88,7 +88,7 @@ def _fly_on(env: gym.Env[Any, Any], conductor: Conductor, plan: FlightPlan, *, t
         seed = conductor.seed
         options = options_of(env, plan, seed)
         episode = fly_episode(env, conductor, seed=seed, options=options, interruptible=True, track=track)
-        whole = len(episode.actions) == periods_of(plan, marine(env))
+        whole = len(episode.actions) == periods_of(plan, env)
         if conductor.restarting:
             continue
         if conductor.quitting or not (episode.ended_early or whole):  # the latter by Ctrl-C

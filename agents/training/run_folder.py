@@ -191,6 +191,20 @@ class RunFolder:
             )
         return whole
 
+    @property
+    def trained_snapshot(self) -> Path:
+        """The folder of the best model; of the latest, if none was evaluated yet.
+
+        Raises:
+            InvalidInputError: none was saved yet, or all are damaged.
+        """
+        snapshot = self.latest("best") or self.latest("checkpoints")
+        if snapshot is None:
+            raise InvalidInputError(
+                f"{self.path} has saved no model yet; continue it with `dq-marine train --run {self.path} --resume`"
+            )
+        return snapshot
+
     def progress(self, kind: Kind) -> Progress:
         """Return how far the run was at the latest snapshot; nowhere if there is none."""
         folder = self.latest(kind)

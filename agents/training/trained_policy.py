@@ -8,6 +8,7 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 
+from dq_marine.agents.environments import space_shape
 from dq_marine.agents.training.learners import MODEL_CLASSES, refusing_damage
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, RunFolder
 from dq_marine.envs.core.marine_env import Action
@@ -30,12 +31,7 @@ class TrainedPolicy:
             MissingDependencyError: Stable-Baselines3 is not installed.
         """
         self.settings = folder.read_plan().settings
-        snapshot = folder.latest("best") or folder.latest("checkpoints")
-        if snapshot is None:
-            raise InvalidInputError(
-                f"{folder.path} has saved no model yet; continue it with `dq-marine train --run {folder.path} "
-                "--resume`"
-            )
+        snapshot = folder.trained_snapshot
         model_class = MODEL_CLASSES[self.settings.algorithm.name]
         with refusing_damage(snapshot):
             self._model = model_class.load(snapshot / MODEL_FILE, device="cpu")
@@ -51,10 +47,10 @@ class TrainedPolicy:
             ("observation", self._model.observation_space, env.observation_space),
             ("action", self._model.action_space, env.action_space),
         ):
-            if _shape(trained) != _shape(found):
+            if space_shape(trained) != space_shape(found):
                 raise InvalidInputError(
-                    f"the policy was trained with {name} shape {_shape(trained)}, the environment has "
-                    f"{_shape(found)}; "
+                    f"the policy was trained with {name} shape {space_shape(trained)}, the environment has "
+                    f"{space_shape(found)}; "
                     "fly it with the task and vehicle that it was trained with"
                 )
 
@@ -62,10 +58,3 @@ class TrainedPolicy:
         """Return the most likely action, shape (n,)."""
         action, _ = self._model.predict(self._normalisation.normalize_obs(observation), deterministic=True)
         return np.asarray(action, dtype=np.float32)
-
-
-def _shape(space: gym.Space[Any]) -> Any:
-    """Return the shape of a space, or of each part of one with goals."""
-    if isinstance(space, gym.spaces.Dict):
-        return {name: part.shape for name, part in space.items()}
-    return space.shape

@@ -66,7 +66,13 @@ TASK = Addition(
     heading="A task",
     what="A file with plain functions and named tuples, whose last line calls `define_task`.",
     outside='gym.make("depth_keeping:my/DepthKeeping-v0"), gym.make_vec(...)',
-    inside=(Change("envs/tasks/", "the file; every file in this folder is registered"),),
+    inside=(
+        Change("envs/tasks/", "the file; every file in this folder is registered"),
+        Change(
+            "envs/scenarios/", "a TOML file with its scenarios, 20 or more; every file in this folder is read"
+        ),
+        Change("docs/tasks/", "its page, which `dq-marine tasks --pages docs/tasks --pictures` writes"),
+    ),
     template="depth_keeping.py",
     result="python -m dq_marine fly --task depth_keeping:my/DepthKeeping-v0 --agent random --trajectory flight.csv",
 )

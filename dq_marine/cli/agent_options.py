@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from dq_marine.agents.choice import common_environment
-from dq_marine.agents.environments import DEFAULT_ENVIRONMENT
+from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, scenario_settings
 from dq_marine.agents.keywords import with_changes
 from dq_marine.agents.preset_files import read_environment, read_settings, validate_settings
 from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
 from dq_marine.cli.keyword_values import read_keywords
+from dq_marine.envs.scenarios.model import Scenario
 from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import vehicle_names
 
@@ -71,7 +72,11 @@ class EnvironmentOptions:
 
 
 def requested_environment(
-    runs: list[Path], options: EnvironmentOptions, *, preset: str | None = None
+    runs: list[Path],
+    options: EnvironmentOptions,
+    *,
+    preset: str | None = None,
+    scenario: Scenario | None = None,
 ) -> EnvironmentSettings:
     """Return the environment of training runs, of a preset, or station keeping, with what was asked for in its place.
 
@@ -79,10 +84,17 @@ def requested_environment(
         runs: folders of training runs.
         options: what was asked for.
         preset: a name or a file's path; None takes the runs' environment or the default.
+        scenario: whose environment is taken, of whatever task and in whatever conditions the runs were trained.
 
     Raises:
         InvalidInputError: a folder holds no run, the runs disagree, or an option is wrong.
     """
+    if scenario is not None:
+        if preset is not None:
+            raise InvalidInputError(
+                f"--preset {preset} and --scenario {scenario.full_name} both say what to fly in; give one of them"
+            )
+        return options.applied(scenario_settings(scenario))
     if preset is not None and runs:
         raise InvalidInputError(
             f"--preset {preset} and --run {runs[0]} both say what to fly in; give one of them"

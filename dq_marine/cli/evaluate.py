@@ -30,6 +30,8 @@ EXAMPLES = examples(
     "dq-marine evaluate",
     "dq-marine evaluate --run runs/ppo --agent controller --agent zero --episodes 100",
     "dq-marine evaluate --run runs/ppo --set current=0.5",
+    "dq-marine evaluate --scenario StationKeeping/strong_current --scenario StationKeeping/failed_dvl",
+    "dq-marine evaluate --scenario Encounter --agent controller --json imazu.json",
     "dq-marine evaluate --agent controller --set control_period=0.2 --set reward.effort=0.1",
     "dq-marine evaluate --run runs/ppo --episodes 10 --trajectories flights --format parquet",
 )
@@ -54,11 +56,31 @@ def evaluate(
         typer.Option("--run", help="Folder of a training run; may be repeated. Load only runs you trust."),
     ] = None,
     episodes: Annotated[
-        int, typer.Option("--episodes", min=1, help="Number of episodes of each agent.")
-    ] = 50,
+        int | None,
+        typer.Option(
+            "--episodes",
+            min=1,
+            help="Number of episodes of each agent.",
+            show_default="50, or in a scenario 1",
+        ),
+    ] = None,
     seed: Annotated[
-        int, typer.Option("--seed", min=0, help="Seed of the first episode; the others count up from it.")
-    ] = 0,
+        int | None,
+        typer.Option(
+            "--seed",
+            min=0,
+            help="Seed of the first episode; the others count up from it.",
+            show_default="0, or a scenario's own",
+        ),
+    ] = None,
+    scenario: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--scenario",
+            help="Name or file of a scenario, or name of a task, for all of its scenarios; may be repeated. "
+            "`dq-marine scenarios` lists them.",
+        ),
+    ] = None,
     preset: EnvironmentPresetOption = None,
     task: TaskOption = None,
     vehicle: VehicleOption = None,
@@ -75,19 +97,27 @@ def evaluate(
     form: Annotated[Format, typer.Option("--format", help="Format of these files.")] = Format.CSV,
     only_print: PrintPresetOption = False,
 ) -> None:
-    """Compare agents over the same seeded episodes: metrics, returns, success.
+    """Compare agents over the same seeded episodes: metrics, returns, success; or in scenarios.
 
     A run is evaluated in what it was trained in, or where an option says so, under other conditions: the table says
-    which.
+    which. A scenario is an episode that can be repeated: its start, its currents and its seed are fixed.
     """
     from dq_marine.agents.choice import make_agents, other_conditions
     from dq_marine.agents.environments import make_environment
     from dq_marine.agents.evaluation.evaluation import score_table
     from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment
+    from dq_marine.cli.scenario_scores import Flights, evaluate_scenarios
 
     runs = run or []
     baselines = agent or ([] if runs else list(Baseline))
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
+    if scenario:
+        flights = Flights(scenario, options, preset, baselines, runs, episodes or 1, seed)
+        evaluate_scenarios(
+            flights, json, None if trajectories is None else _keeper(trajectories, form), only_print
+        )
+        return
+    episodes, seed = episodes or 50, seed or 0
     environment = requested_environment(runs, options, preset=preset)
     if only_print:
         print_preset(environment, "environment")

@@ -16,6 +16,7 @@ from dq_marine.cli.options import (
     EnvironmentPresetOption,
     LevelOption,
     PrintPresetOption,
+    ScenarioOption,
     SetOption,
     TaskOption,
     VehicleOption,
@@ -30,6 +31,8 @@ EXAMPLES = examples(
     "dq-marine fly --teleop --current 0.3",
     "dq-marine fly --panel --task PathFollowing --vehicle remus100",
     "dq-marine fly --live --start-distance 2",
+    "dq-marine fly --scenario StationKeeping/cross_current --live",
+    "dq-marine fly --scenario my_scenario.toml --run runs/ppo --html policy.html",
     "dq-marine fly --run runs/ppo --html ppo.html --plot ppo.png --seed 3",
     "dq-marine fly --agent zero --current 0.2,-0.1,0 --seconds 60 --html drift.html",
     "dq-marine fly --set actuation=thrusters --trajectory flight.csv",
@@ -85,9 +88,10 @@ def fly(
             "--seed",
             min=0,
             help="Seed of the start and the current.",
-            show_default="the first whose start is at least half the start radius away from the goal",
+            show_default="the scenario's, or the first whose start is at least half the start radius from the goal",
         ),
     ] = None,
+    scenario: ScenarioOption = None,
     preset: EnvironmentPresetOption = None,
     task: TaskOption = None,
     vehicle: VehicleOption = None,
@@ -97,7 +101,9 @@ def fly(
     seconds: Annotated[
         float | None,
         typer.Option(
-            "--seconds", help="Simulated time, in seconds.", show_default="30; with a panel an hour"
+            "--seconds",
+            help="Simulated time, in seconds.",
+            show_default="30; as long as a scenario lasts; with a panel an hour",
         ),
     ] = None,
     start_distance: Annotated[
@@ -108,34 +114,49 @@ def fly(
     ] = None,
     only_print: PrintPresetOption = False,
 ) -> None:
-    """Fly one episode: live in the browser, into a replay, into a plot, into a table of numbers."""
+    """Fly one episode: live in the browser, into a replay, into a plot, into a table of numbers.
+
+    A scenario is an episode that can be repeated: its start, its currents and its seed are fixed.
+    """
     from dq_marine.agents.choice import make_agents
     from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, episode_table
     from dq_marine.agents.evaluation.flight import fly as fly_once
     from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment
+    from dq_marine.envs.scenarios.files import load_scenario
 
     if agent is not None and run is not None:
         raise InvalidInputError(f"--agent {agent} and --run {run} name two agents; give one of them")
     runs = [] if run is None else [run]
     baselines = [agent or Baseline.CONTROLLER] if run is None else []
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
-    environment = requested_environment(runs, options, preset=preset)
+    begun = None if scenario is None else load_scenario(scenario, task=task)
+    environment = requested_environment(runs, options, preset=preset, scenario=begun)
     if only_print:
         print_preset(environment, "environment")
         return
+    if begun is not None and start_distance is not None:
+        raise InvalidInputError(
+            f"--start-distance {start_distance:g} and --scenario {scenario} both say where to start; give one of them"
+        )
     files = Outputs(html=html, plot=plot, trajectory=trajectory)
     title = f"{run or baselines[0]}, seed {{seed}}"
-    length = seconds if seconds is not None else (SECONDS_WITH_PANEL if panel or teleop else SECONDS)
-    plan = FlightPlan(environment, length, seed, start_distance)
+    if seconds is None and (panel or teleop):
+        seconds = SECONDS_WITH_PANEL
+    elif seconds is None and begun is None:
+        seconds = SECONDS
+    if begun is None:
+        plan = FlightPlan(environment, seconds, seed, start_distance)
+    else:
+        plan = FlightPlan(environment, seconds, begun.seed if seed is None else seed, start=begun.reset)
     if panel or teleop:
         from dq_marine.agents.interactive.flying import fly_interactively, offered_agents
 
-        offer = partial(offered_agents, baselines=baselines, runs=runs, seed=seed or 0)
+        offer = partial(offered_agents, baselines=baselines, runs=runs, seed=plan.seed or 0)
         episode = fly_interactively(plan, offer, files, title=title, teleoperated=teleop)
     else:
         episode = fly_once(
             plan,
-            lambda env: next(iter(make_agents(baselines, runs, env, seed=seed or 0).values())),
+            lambda env: next(iter(make_agents(baselines, runs, env, seed=plan.seed or 0).values())),
             replace(files, live=live or not files.files),
             title=title,
         )

@@ -1,8 +1,9 @@
-"""The command `dq-marine leaderboard`: every task with every vehicle, over many episodes."""
+"""The command `dq-marine leaderboard`: every task with every vehicle, over many episodes, and in named scenarios."""
 
 from __future__ import annotations
 
 import shlex
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -10,11 +11,15 @@ import typer
 
 from dq_marine.cli.common import console, examples
 from dq_marine.cli.options import Baseline
+from dq_marine.errors import InvalidInputError
 
 EXAMPLES = examples(
     "dq-marine leaderboard",
     "dq-marine leaderboard --task StationKeeping --episodes 20",
     "dq-marine leaderboard --vehicle remus100 --vehicle otter --level easy --level hard",
+    "dq-marine leaderboard --scenarios",
+    "dq-marine leaderboard --scenarios --episodes 0 --task Encounter --agent controller --agent zero",
+    "dq-marine leaderboard --scenarios --task StationKeeping --agent controller --policy runs/ppo",
 )
 
 
@@ -35,7 +40,23 @@ def leaderboard(
         list[Baseline] | None,
         typer.Option("--agent", help="A baseline; may be repeated.", show_default="controller"),
     ] = None,
-    episodes: Annotated[int, typer.Option("--episodes", min=1, help="Number of episodes of each.")] = 200,
+    policy: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--policy",
+            help="Folder of a training run, whose policy flies what it fits: its task, with its vehicle and sensors; "
+            "may be repeated. Load only runs you trust.",
+        ),
+    ] = None,
+    scenarios: Annotated[
+        bool, typer.Option("--scenarios", help="Fly the named scenarios, too, each once by each agent.")
+    ] = False,
+    episodes: Annotated[
+        int,
+        typer.Option(
+            "--episodes", min=0, help="Number of episodes of each; 0 leaves the scenarios alone to be flown."
+        ),
+    ] = 200,
     seed: Annotated[
         int, typer.Option("--seed", min=0, help="Seed of the first episode; the others count up from it.")
     ] = 0,
@@ -48,51 +69,63 @@ def leaderboard(
     ] = Path("leaderboard.md"),
     fresh: Annotated[bool, typer.Option("--fresh", help="Measure again what was measured before.")] = False,
 ) -> None:
-    """Fly every task with every vehicle that it suits, and write how often agents succeed.
+    """Fly every task with every vehicle that it suits, and write how well agents do.
 
-    Results are kept as they come: a run that was stopped goes on where it was, unless the sources have changed.
+    The page has success with Wilson's interval, and of errors, effort and smoothness the interquartile mean with a
+    bootstrap interval. Results are kept as they come: a run that was stopped goes on where it was, unless the sources
+    have changed.
     """
     from rich.progress import Progress
 
     from dq_marine.backend.workers import usable_cores
-    from dq_marine.report.leaderboard import Kept, Plan, Result, entries, fly_all, markdown
+    from dq_marine.report.leaderboard import Entry, Kept, Plan, Result, entries, fly_all, scenario_entries
+    from dq_marine.report.leaderboard_page import markdown
+    from dq_marine.report.leaderboard_policies import policies_of
     from dq_marine.util.files import check_ending, check_folder, write_whole
 
     check_ending(out, ".md")
     check_folder(out)
-    agents = [str(one) for one in agent or [Baseline.CONTROLLER]]
-    wanted = entries(task or [], vehicle or [], level or ["medium"], agents)
+    if not (episodes or scenarios):
+        raise InvalidInputError("--episodes 0 leaves nothing to fly; give --scenarios, too, or more episodes")
+    policies = policies_of(policy or [])
+    agents = [str(one) for one in agent or ([] if policies else [Baseline.CONTROLLER])]
+    tasks = task or list(dict.fromkeys(one.task for one in policies if not agents))
+    wanted: list[Entry] = []
+    if episodes:
+        wanted += entries(tasks, vehicle or [], level or ["medium"], agents, policies)
+    if scenarios:
+        wanted += scenario_entries(tasks, vehicle or [], agents, policies)
     plan = Plan(episodes, seed)
     kept = Kept(out.with_suffix(".json"), plan, fresh=fresh)
     with Progress(console=console, transient=True) as bar:
-        missing = [entry for entry in wanted if entry not in kept.results]
+        missing = kept.missing(wanted, {one.name: one for one in policies})
         flying = bar.add_task("flying", total=len(missing))
 
         def after(result: Result) -> None:
-            bar.update(flying, advance=1, description=f"{result.entry.task}, {result.entry.vehicle}")
+            what = result.entry.scenario or result.entry.vehicle
+            bar.update(flying, advance=1, description=f"{result.entry.task}, {what}")
 
         try:
-            results = fly_all(wanted, plan, kept, processes=processes or usable_cores(), after=after)
+            results = fly_all(
+                wanted, plan, kept, processes=processes or usable_cores(), after=after, policies=policies
+            )
         except KeyboardInterrupt:
             bar.stop()
             console.print(f"Stopped; {len(kept.results)} results are kept in {kept.path}", soft_wrap=True)
             raise typer.Exit(130) from None
-    write_whole(out, markdown(results, _command(task, vehicle, level, agents, plan), _circumstances()))
+    options = {"task": task, "vehicle": vehicle, "level": level, "agent": agents, "policy": policy}
+    flags = ["--scenarios"] if scenarios else []
+    write_whole(out, markdown(results, _command(options, flags, plan), _circumstances()))
     console.print(f"Wrote {out} and {kept.path}", soft_wrap=True)
 
 
-def _command(
-    task: list[str] | None,
-    vehicle: list[str] | None,
-    level: list[str] | None,
-    agents: list[str],
-    plan: object,
-) -> str:
+def _command(options: Mapping[str, Sequence[object] | None], flags: list[str], plan: object) -> str:
     """Return what makes the page again."""
     parts = ["dq-marine", "leaderboard"]
-    for name, values in (("task", task), ("vehicle", vehicle), ("level", level), ("agent", agents)):
+    for name, values in options.items():
         for value in values or ():
-            parts += [f"--{name}", value]
+            parts += [f"--{name}", str(value)]
+    parts += flags
     for name, number in vars(plan).items():
         parts += [f"--{name}", str(number)]
     return shlex.join(parts)

@@ -11,7 +11,19 @@ from typing import Annotated
 import typer
 
 from dq_marine import __version__
-from dq_marine.cli import add, demo, evaluate, fly, leaderboard, report, sea, tasks, train, validate
+from dq_marine.cli import (
+    add,
+    demo,
+    evaluate,
+    fly,
+    leaderboard,
+    report,
+    scenarios,
+    sea,
+    tasks,
+    train,
+    validate,
+)
 from dq_marine.cli.common import HELP_OPTIONS, Commands, console
 from dq_marine.cli.manoeuvre import app as manoeuvre_app
 from dq_marine.cli.vehicles import app as vehicles_app
@@ -49,6 +61,7 @@ app.command(epilog=evaluate.EXAMPLES)(evaluate.evaluate)
 app.command(epilog=leaderboard.EXAMPLES)(leaderboard.leaderboard)
 app.command(epilog=train.EXAMPLES)(train.train)
 app.command(epilog=tasks.EXAMPLES)(tasks.tasks)
+app.command(epilog=scenarios.EXAMPLES)(scenarios.scenarios)
 app.add_typer(vehicles_app, name="vehicles")
 app.add_typer(manoeuvre_app, name="manoeuvre")
 app.command(epilog=validate.EXAMPLES)(validate.validate)

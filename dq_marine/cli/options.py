@@ -72,6 +72,14 @@ PrintPresetOption = Annotated[
     bool,
     typer.Option("--print-preset", help="Print the settings as TOML, which --preset reads, and exit."),
 ]
+ScenarioOption = Annotated[
+    str | None,
+    typer.Option(
+        "--scenario",
+        help="Begin a scenario: its name, as StationKeeping/calm, or the path of a TOML file. Other options that say "
+        "something of the environment win over what it says. `dq-marine scenarios` lists them.",
+    ),
+]
 EnvironmentPresetOption = Annotated[
     str | None,
     typer.Option("--preset", help="Name of a preset, or path of a TOML file, whose environment is used."),

@@ -1,25 +1,30 @@
-"""The leaderboard: how often agents succeed in tasks, vehicle by vehicle, over many seeded episodes."""
+"""The leaderboard: how well agents do tasks, over many seeded episodes with every vehicle, and in named scenarios."""
 
 from __future__ import annotations
 
 import json
 import multiprocessing
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from dq_marine.agents.choice import make_agents
-from dq_marine.agents.environments import make_environment
+from dq_marine.agents.environments import make_environment, scenario_settings
+from dq_marine.agents.evaluation.episodes import Episode
 from dq_marine.agents.evaluation.evaluation import evaluate
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.checks import shown
+from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.registry import registered_tasks, task_called
+from dq_marine.envs.scenarios.files import load_scenario, scenarios_of
 from dq_marine.errors import InvalidInputError
+from dq_marine.report.interquartile import Interval, interquartile_interval
+from dq_marine.report.leaderboard_policies import Policy
 from dq_marine.report.sources import fingerprint, sources
 from dq_marine.util.extras import extra_needed
-from dq_marine.util.files import write_json
+from dq_marine.util.files import write_whole
 from dq_marine.vehicles import load_vehicle, vehicle_names
 
 ONLY_SHOWING = ("cli", "manoeuvres", "viewer", "report", "validation", "identification")
@@ -27,17 +32,18 @@ ONLY_SHOWING = ("cli", "manoeuvres", "viewer", "report", "validation", "identifi
 
 
 class Entry(NamedTuple):
-    """Who flies what: id of the task, vehicle, level, agent."""
+    """Who flies what: id of the task, vehicle, level ("" for none), agent; and the name of a scenario, "" for none."""
 
     task: str
     vehicle: str
     level: str
     agent: str
+    scenario: str = ""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """How often: episodes of each entry, and the seed of the first; the others count up from it."""
+    """How often: episodes of each entry without a scenario, and the seed of the first; the others count up from it."""
 
     episodes: int
     seed: int
@@ -52,28 +58,41 @@ class Result:
         successes: episodes that ended in success.
         episodes: all of them.
         score: as `agents.evaluation.evaluation.Score.as_dict` has it.
+        figures: of what `Episode.figures` has, interquartile means over the episodes and their intervals.
+        policy: a hash over the model of a trained policy; "" of a baseline.
     """
 
     entry: Entry
     successes: int
     episodes: int
     score: dict[str, Any]
+    figures: dict[str, Interval]
+    policy: str = ""
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The 95 % confidence interval of the rate of success, by Wilson's score.
+        """The 95 % confidence interval of the rate of success; see `wilson_interval`."""
+        return wilson_interval(self.successes, self.episodes)
 
-        Raises:
-            MissingDependencyError: SciPy is not installed.
-        """
-        with extra_needed("a confidence interval", "report"):
-            from scipy.stats import binomtest
-        found = binomtest(self.successes, self.episodes).proportion_ci(method="wilson")
-        return float(found.low), float(found.high)
+
+def wilson_interval(successes: int, episodes: int) -> tuple[float, float]:
+    """Return the 95 % confidence interval of a rate, by Wilson's score.
+
+    Raises:
+        MissingDependencyError: SciPy is not installed.
+    """
+    with extra_needed("a confidence interval", "report"):
+        from scipy.stats import binomtest
+    found = binomtest(successes, episodes).proportion_ci(method="wilson")
+    return float(found.low), float(found.high)
 
 
 def entries(
-    tasks: Sequence[str], vehicles: Sequence[str], levels: Sequence[str], agents: Sequence[str]
+    tasks: Sequence[str],
+    vehicles: Sequence[str],
+    levels: Sequence[str],
+    agents: Sequence[str],
+    policies: Sequence[Policy] = (),
 ) -> list[Entry]:
     """Return every task with every vehicle that it suits, at every level that it has.
 
@@ -82,39 +101,105 @@ def entries(
         vehicles: of the catalogue; none for all.
         levels: by name.
         agents: baselines by name.
+        policies: trained ones, each for its task and vehicle, at the levels whose environments it fits.
 
     Raises:
         InvalidInputError: a task, a vehicle or a level is unknown, or nothing is left.
     """
-    chosen = [task_called(name) for name in tasks] or [
-        one for one in registered_tasks() if one.id.startswith("dq_marine/")
-    ]
+    chosen = chosen_tasks(tasks)
     loaded = {name: load_vehicle(name) for name in vehicles or vehicle_names()}
     for task in chosen:
         for level in levels:
             task.at_level(level, {})
-    found = [
-        Entry(task.id, name, level, agent)
-        for task in chosen
-        for name, vehicle in loaded.items()
-        if task.unsuitable(vehicle) is None
-        for level in levels
-        for agent in agents
-    ]
+    found = []
+    for task in chosen:
+        for name in (one for one, vehicle in loaded.items() if task.unsuitable(vehicle) is None):
+            for level in levels:
+                environment = environment_of(Entry(task.id, name, level, ""))
+                able = [one.name for one in policies if one.vehicle == name and one.fits(environment)]
+                found += [Entry(task.id, name, level, agent) for agent in (*agents, *able)]
     if not found:
         raise InvalidInputError(
-            f"none of the tasks {[task.id for task in chosen]} suits any of the vehicles {list(loaded)}; give others"
+            f"none of the tasks {[task.id for task in chosen]} suits any of the vehicles {list(loaded)}, or none of "
+            "the agents can fly them; give others"
         )
     return found
 
 
-def fly_entry(entry: Entry, plan: Plan) -> Result:
-    """Fly all episodes of an entry."""
-    keywords = {"vehicle": entry.vehicle, "level": entry.level}
-    env = make_environment(EnvironmentSettings(id=entry.task, keywords=keywords))
-    agents = make_agents([entry.agent], [], env, seed=plan.seed)
-    (score,) = evaluate(env, agents, episodes=plan.episodes, seed=plan.seed)
-    return Result(entry, round(score.success_rate * plan.episodes), plan.episodes, score.as_dict())
+def scenario_entries(
+    tasks: Sequence[str], vehicles: Sequence[str], agents: Sequence[str], policies: Sequence[Policy] = ()
+) -> list[Entry]:
+    """Return every scenario that ships, for every agent.
+
+    Args:
+        tasks: names or ids; none for all.
+        vehicles: that the scenarios are to be with; none for any.
+        agents: baselines by name.
+        policies: trained ones, each in the scenarios that it fits.
+
+    Raises:
+        InvalidInputError: a task is unknown, or there are no such scenarios.
+    """
+    found = []
+    for task in chosen_tasks(tasks):
+        for one in scenarios_of(task.id):
+            vehicle = str(one.keywords.get("vehicle", task.vehicle))
+            if vehicles and vehicle not in vehicles:
+                continue
+            able = [policy.name for policy in policies if policy.fits(scenario_settings(one))]
+            level = str(one.keywords.get("level", ""))
+            found += [Entry(task.id, vehicle, level, agent, one.name) for agent in (*agents, *able)]
+    if not found:
+        raise InvalidInputError(
+            f"no scenarios ship for the tasks {list(tasks)} with the vehicles {list(vehicles)}; give others"
+        )
+    return found
+
+
+def chosen_tasks(names: Sequence[str]) -> list[TaskDefinition]:
+    """Return tasks by names or ids; without any, all that ship.
+
+    Raises:
+        InvalidInputError: one is unknown.
+    """
+    ours = (one for one in registered_tasks() if one.id.startswith("dq_marine/"))
+    return [task_called(name) for name in names] or list(ours)
+
+
+def environment_of(entry: Entry) -> EnvironmentSettings:
+    """Return what an entry is flown in."""
+    if entry.scenario:
+        return scenario_settings(load_scenario(f"{entry.task}/{entry.scenario}"))
+    return EnvironmentSettings(id=entry.task, keywords={"vehicle": entry.vehicle, "level": entry.level})
+
+
+def fly_entry(entry: Entry, plan: Plan, policy: Policy | None = None) -> Result:
+    """Fly all episodes of an entry: those of the plan, or that of its scenario.
+
+    Args:
+        entry: who flies what.
+        plan: how often, where it is no scenario.
+        policy: the trained one that the entry's agent is; None for a baseline.
+    """
+    options: dict[str, Any] = {}
+    if entry.scenario:
+        scenario = load_scenario(f"{entry.task}/{entry.scenario}")
+        plan, options = Plan(1, scenario.seed), dict(scenario.reset)
+    env = make_environment(environment_of(entry))
+    baselines, runs = ([entry.agent], []) if policy is None else ([], [policy.folder])
+    agents = make_agents(baselines, runs, env, seed=plan.seed)
+    flown: list[dict[str, float]] = []
+
+    def keep(_: str, episode: Episode) -> None:
+        flown.append(episode.figures())
+
+    (score,) = evaluate(
+        env, agents, episodes=plan.episodes, seed=plan.seed, options=options, after_episode=keep
+    )
+    figures = {name: interquartile_interval([one[name] for one in flown]) for name in flown[0]}
+    successes = round(score.success_rate * plan.episodes)
+    digest = "" if policy is None else policy.digest
+    return Result(entry, successes, plan.episodes, score.as_dict(), figures, digest)
 
 
 class Kept:
@@ -130,32 +215,61 @@ class Kept:
         self._key = {**asdict(plan), "sources": fingerprint(sources(without=ONLY_SHOWING))}
         self.results: dict[Entry, Result] = {}
         if path.is_file() and not fresh:
-            self.results = self._read()
+            content, results = read_results(path)
+            if all(content.get(name) == value for name, value in self._key.items()):
+                self.results = {one.entry: one for one in results}
 
     def add(self, result: Result) -> None:
-        """Keep a result, at once."""
+        """Keep a result, at once; the file has a line for each."""
         self.results[result.entry] = result
         rows = [asdict(one) | {"entry": one.entry._asdict()} for one in self.results.values()]
-        write_json(self.path, {**self._key, "results": rows})
+        head = json.dumps({**self._key, "results": []}).removesuffix("]}")
+        write_whole(self.path, head + "\n" + ",\n".join(map(json.dumps, rows)) + "\n]}\n")
 
-    def _read(self) -> dict[Entry, Result]:
-        try:
-            content = json.loads(self.path.read_text(encoding="utf-8"))
-            if any(content[name] != value for name, value in self._key.items()):
-                return {}
-            rows = [
-                Result(Entry(**row["entry"]), row["successes"], row["episodes"], row["score"])
-                for row in content["results"]
-            ]
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            raise InvalidInputError(
-                f"{self.path} is no leaderboard: {shown(error)}; move it away, or give --fresh"
-            ) from error
-        return {one.entry: one for one in rows}
+    def missing(self, wanted: Iterable[Entry], policies: Mapping[str, Policy]) -> list[Entry]:
+        """Return the entries that have no result yet, or one of another model of the policy."""
+        digests = {name: policy.digest for name, policy in policies.items()}
+        return [
+            entry
+            for entry in wanted
+            if entry not in self.results or self.results[entry].policy != digests.get(entry.agent, "")
+        ]
+
+
+def read_results(path: Path) -> tuple[dict[str, Any], list[Result]]:
+    """Return what a leaderboard's file says besides its results, and these.
+
+    Raises:
+        InvalidInputError: it cannot be read, or is no such file.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        rows = content.pop("results")
+        results = [
+            Result(
+                **row
+                | {
+                    "entry": Entry(**row["entry"]),
+                    "figures": {name: Interval(*value) for name, value in row["figures"].items()},
+                }
+            )
+            for row in rows
+        ]
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise InvalidInputError(
+            f"{path} is no leaderboard: {shown(error)}; move it away, or give --fresh"
+        ) from error
+    return content, results
 
 
 def fly_all(
-    wanted: Iterable[Entry], plan: Plan, kept: Kept, *, processes: int, after: Callable[[Result], None]
+    wanted: Iterable[Entry],
+    plan: Plan,
+    kept: Kept,
+    *,
+    processes: int,
+    after: Callable[[Result], None],
+    policies: Sequence[Policy] = (),
 ) -> list[Result]:
     """Return the results of entries, in their order; what is kept is not flown again.
 
@@ -165,41 +279,19 @@ def fly_all(
         kept: results of before; new ones are added.
         processes: that fly at a time.
         after: called with each result that is new.
+        policies: the trained ones among the agents.
     """
     asked = list(wanted)
-    missing = [entry for entry in asked if entry not in kept.results]
+    trained = {one.name: one for one in policies}
+    missing = kept.missing(asked, trained)
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(max(1, min(processes, len(missing))), mp_context=context) as pool:
         try:
-            for done in as_completed([pool.submit(fly_entry, entry, plan) for entry in missing]):
+            flights = [pool.submit(fly_entry, entry, plan, trained.get(entry.agent)) for entry in missing]
+            for done in as_completed(flights):
                 kept.add(done.result())
                 after(done.result())
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     return [kept.results[entry] for entry in asked]
-
-
-def markdown(results: Sequence[Result], command: str, circumstances: str) -> str:
-    """Return the page: a table a task."""
-    lines = ["# Leaderboard", "", f"`{command}`", "", circumstances, ""]
-    lines += [
-        "Success is what the task says of it, at the end of an episode; in brackets the 95 % interval by Wilson.",
-        "Other columns are means of the last third of an episode, as median over the episodes.",
-    ]
-    for task in dict.fromkeys(one.entry.task for one in results):
-        lines += ["", f"## {task}", "", *_table([one for one in results if one.entry.task == task])]
-    return "\n".join(lines) + "\n"
-
-
-def _table(results: Sequence[Result]) -> list[str]:
-    names = list(results[0].score["metrics"])
-    heading = ["vehicle", "level", "agent", "success", *(f"`{name}`" for name in names), "ended early"]
-    rows = [heading, ["---"] * 3 + ["---:"] * (len(heading) - 3)]
-    for one in results:
-        low, high = one.interval
-        success = f"{one.successes} of {one.episodes} ({low:.1%} to {high:.1%})"
-        metrics = [f"{one.score['metrics'][name]['steady']['median']:.3g}" for name in names]
-        early = f"{one.score['early_end_rate']:.1%}"
-        rows.append([one.entry.vehicle, one.entry.level, one.entry.agent, success, *metrics, early])
-    return ["| " + " | ".join(row) + " |" for row in rows]

@@ -125,6 +125,8 @@ class TaskDefinition:
         tolerances: of some metrics: an episode is settled from when on all of them stay within.
         goal: (parameters, memory) -> the goal to be drawn.
         scenery: (parameters, memory) -> what is around the vehicle, to be drawn.
+        collided: (parameters, memory) -> whether the vehicle has hit something since the start, for evaluations; None
+            of a task with nothing to hit.
         goal_reward: (parameters, weights, achieved goal, desired goal) -> the term `goal` of the reward, with its
             weight, of a task whose observation has goals among its parts: for `compute_reward` and hindsight replay.
         levels: of difficulty, by name, the easiest first: keywords of the task and of `dq_marine.Settings`.
@@ -150,6 +152,7 @@ class TaskDefinition:
     tolerances: Mapping[str, float] = field(default_factory=dict)
     goal: Callable[[Any, Any], Goal | None] = no_goal
     scenery: Callable[[Any, Any], Sequence[Thing]] = nothing_around
+    collided: Callable[[Any, Any], Any] | None = None
     goal_reward: Callable[[Any, Any, Any, Any], float] | None = None
     levels: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     unsuitable: Callable[[Vehicle], str | None] = suits_all

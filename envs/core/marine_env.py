@@ -326,11 +326,8 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def snapshot(self) -> Snapshot:
         """Return what a viewer draws now."""
         episode, motion = self._running("snapshot"), self.motion
-        parameters = unpack(self.episode_parameters({}), episode.episode_parameters)
-        memory = unpack(self.blank_memory, episode.memory)
-        while isinstance(memory, Sensed | ActuatedMemory):
-            memory = memory.task
-        goal = self.definition.goal(parameters.task, memory)
+        parameters, memory = self._task_numbers
+        goal = self.definition.goal(parameters, memory)
         return Snapshot(
             time=self.time,
             position_ned=np.array(motion.position_ned),
@@ -339,10 +336,16 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             current_ned=episode.current_ned,
             goal_position_ned=None if goal is None else np.array(goal.position_ned),
             goal_quaternion_body_to_ned=None if goal is None else np.array(goal.attitude),
-            things=tuple(self.definition.scenery(parameters.task, memory)),
+            things=tuple(self.definition.scenery(parameters, memory)),
             sea=self.sea,
             sea_start=episode.clock,
         )
+
+    @property
+    def collided(self) -> bool | None:
+        """Whether the vehicle has hit something in this episode; None of a task with nothing to hit."""
+        own = self.definition.collided
+        return None if own is None else bool(own(*self._task_numbers))
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Compile again (from the cache on disk) and start without a window."""
@@ -359,6 +362,15 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def _new_episode(self, parameters: EpisodeParameters, drawn: Drawn, number: int = 0) -> Episode:
         parts = (self.scene.composition, self.task, self.pool.parameters[number], parameters, drawn)
         return begun_episode(*parts, number, self.action_mapping.size)
+
+    @property
+    def _task_numbers(self) -> tuple[Any, Any]:
+        """The task's own parameters and memory now, without those of sensors and actuators."""
+        episode = self._running("the task's memory")
+        memory = unpack(self.blank_memory, episode.memory)
+        while isinstance(memory, Sensed | ActuatedMemory):
+            memory = memory.task
+        return unpack(self.episode_parameters({}), episode.episode_parameters).task, memory
 
     @property
     def _parameters(self) -> StepParameters:

@@ -104,6 +104,23 @@ def task_called(name: str) -> TaskDefinition:
     return task_named(full_id(name))
 
 
+def task_imported(name: str) -> TaskDefinition:
+    """Return a task by its id or short name, behind a module and a colon if importing that registers it.
+
+    Raises:
+        InvalidInputError: there is no such module, or no such task.
+    """
+    module, _, task = name.rpartition(":")
+    try:
+        if module:
+            importlib.import_module(module)
+    except ImportError as error:
+        raise InvalidInputError(
+            f"task = {shown(name)}: {error}; give a module that can be imported"
+        ) from error
+    return task_called(task)
+
+
 def full_id(name: str) -> str:
     """Return the id of the task of a short name; any other id as it is."""
     meant = (task.id for task in registered_tasks() if short_name(task).lower() == name.lower())

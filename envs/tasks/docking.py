@@ -237,6 +237,7 @@ define_task(
     summary="Bring the bow through a funnel into a dock that heaves, slowly enough, in an unseen current.",
     draws=START_DRAWS,
     scenery=lambda own, memory: dock_seen(memory.dock, own.funnel),
+    collided=lambda own, memory: memory.contact.struck > 0.5,
     units={"distance": "m", "cross_error": "m", "angle_error": "rad", "impact_speed": "m/s"},
     levels={
         "easy": {"heave": 0.0, "angle": 20.0, "current": 0.0},

@@ -226,8 +226,7 @@ def terminated(own: Parameters, now: Situation) -> Any:
 
 def goal(own: Parameters, memory: Memory) -> Goal:
     """Return the end of the route, for drawing."""
-    end = 2.0 * own.way
-    return Goal((end * memory.course[0], end * memory.course[1], own.depth))
+    return Goal((2.0 * own.way * memory.course[0], 2.0 * own.way * memory.course[1], own.depth))
 
 
 define_task(
@@ -236,6 +235,7 @@ define_task(
     summary="Meet up to three vessels by the rules of the road, and go on along the route.",
     draws=1 + TRAFFIC_DRAWS,
     scenery=lambda own, memory: vessels_seen(memory.lookout.vessels, own.length),
+    collided=lambda own, memory: least_distance(memory.lookout) < own.safe,
     units={"least_distance": "m", "cpa_distance": "m", "cpa_time": "s", "goal_distance": "m"},
     levels={
         "easy": {"vessels": 1, "current": 0.0},

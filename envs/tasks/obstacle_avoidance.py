@@ -161,14 +161,10 @@ def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Mot
     relative = subtract(over_ground, (closest.north_velocity, closest.east_velocity, 0.0))
     distance = norm(subtract(memory.goal_ned, motion.position_ned))
     impact_speed = select(closest.clearance < 0.0, norm(relative), 0.0)
-    return Memory(
-        memory.goal_ned,
-        pillars,
-        fan(pillars, motion.position_ned, motion.attitude, own.reach),
-        memory.errors,
-        memory.metrics.goal_distance - distance,
-        Metrics(distance, closest.clearance, impact_speed),
-    )
+    ranges = fan(pillars, motion.position_ned, motion.attitude, own.reach)
+    gained = memory.metrics.goal_distance - distance
+    metrics = Metrics(distance, closest.clearance, impact_speed)
+    return Memory(memory.goal_ned, pillars, ranges, memory.errors, gained, metrics)
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
@@ -238,6 +234,7 @@ define_task(
     draws=START_DRAWS + field_draws(ROWS, COLUMNS),
     sense_draws=BEAMS,
     scenery=lambda own, memory: pillars_seen(memory.pillars, own.depth, 2.0 * own.hull.half_length),
+    collided=lambda own, memory: memory.metrics.clearance < 0.0,
     units={"goal_distance": "m", "clearance": "m", "impact_speed": "m/s"},
     levels={
         "easy": {"spacing": 8.0, "noise": 0.0, "dropout": 0.0, "current": 0.0},

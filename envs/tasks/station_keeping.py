@@ -222,7 +222,7 @@ def terminated(own: Parameters, now: Situation) -> Any:
 
 
 def succeeded(own: Parameters, now: Situation) -> Any:
-    """Whether the vehicle is on station."""
+    """Whether the vehicle is on station: within 0.1 m and 5 degrees."""
     near = now.metrics.position_error < SUCCESS_POSITION
     return near & (now.metrics.attitude_error < SUCCESS_ATTITUDE)
 

@@ -19,7 +19,7 @@ from hostile.acting import (
     vector_target,
 )
 from hostile.commands import drawn_command
-from hostile.files import drawn_log_file, drawn_mesh_file, drawn_reference_file
+from hostile.files import drawn_log_file, drawn_mesh_file, drawn_reference_file, drawn_scenario_file
 from hostile.folders import drawn_run_folder
 from hostile.making import (
     MADE,
@@ -62,6 +62,7 @@ DOORS: dict[str, Door] = {
     "mesh file": Door(drawn_mesh_file),
     "log file": Door(drawn_log_file),
     "reference file": Door(drawn_reference_file),
+    "scenario file": Door(drawn_scenario_file),
     "run folder": Door(drawn_run_folder),
     "command": Door(drawn_command),
     "body": Door(drawn_body_call, body_target),

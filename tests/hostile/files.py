@@ -10,6 +10,8 @@ from typing import Any
 from support.solids import box, ellipsoid, write_ascii_stl, write_stl
 
 import dq_marine.validation
+from dq_marine.envs.scenarios.files import FOLDER as SCENARIOS
+from dq_marine.envs.scenarios.files import read_scenarios
 from dq_marine.identification import read_log
 from dq_marine.meshes import Choices, vehicle_from_mesh
 from dq_marine.validation import load_references
@@ -89,6 +91,16 @@ def drawn_log_file(rng: Rng) -> Callable[[], Any]:
     vehicle = load_vehicle(("bluerov2_heavy", "otter")[rng.integers(2)])
     content = text.encode("utf-8", errors="surrogatepass")
     return with_file("log.csv", content, lambda file: read_log(file, vehicle))
+
+
+def drawn_scenario_file(rng: Rng) -> Callable[[], Any]:
+    """Scenarios of a task, their text gone wrong or not."""
+    files = sorted(SCENARIOS.glob("*.toml"))
+    text = files[rng.integers(len(files))].read_text(encoding="utf-8")
+    for _ in range(rng.integers(4)):
+        text = changed_text(rng, text)
+    content = text.encode("utf-8", errors="surrogatepass")
+    return with_file("scenarios.toml", content, read_scenarios)
 
 
 def drawn_reference_file(rng: Rng) -> Callable[[], Any]:

@@ -1,6 +1,7 @@
 """The leaderboard: what is flown, how often it succeeds, and that what was flown is kept."""
 
 import json
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -11,8 +12,23 @@ from dq_marine.agents.evaluation.evaluation import evaluate
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.cli.main import app
 from dq_marine.envs.core.registry import registered_tasks
+from dq_marine.envs.scenarios.environment import make_scenario
+from dq_marine.envs.scenarios.files import load_scenario, scenarios_of
 from dq_marine.errors import InvalidInputError
-from dq_marine.report.leaderboard import Entry, Kept, Plan, Result, entries, fly_all, markdown
+from dq_marine.report.interquartile import Interval
+from dq_marine.report.leaderboard import (
+    Entry,
+    Kept,
+    Plan,
+    Result,
+    entries,
+    environment_of,
+    fly_all,
+    fly_entry,
+    scenario_entries,
+)
+from dq_marine.report.leaderboard_page import markdown
+from dq_marine.report.leaderboard_policies import Policy
 
 STATION_KEEPING = "dq_marine/StationKeeping-v0"
 ENTRY = Entry(STATION_KEEPING, "bluerov2_heavy", "medium", "controller")
@@ -68,16 +84,83 @@ def test_a_damaged_file_is_said_to_be_one_or_is_of_other_sources(tmp_path, conte
         Kept(path, PLAN)
 
 
+def result_of(entry, successes, episodes, collision_rate=None, **figures):
+    score = {"early_end_rate": 0.05, "collision_rate": collision_rate}
+    actions = {"effort": Interval(0.01, 0.01, 0.02), "action_change": Interval(0.1, 0.1, 0.1)}
+    return Result(entry, successes, episodes, score, {"return": Interval(1, 1, 1), **figures, **actions})
+
+
 def test_the_page_has_a_table_a_task_with_intervals():
-    metrics = {"position_error_m": {"final": {}, "steady": {"mean": 0.2, "median": 0.125, "p95": 1.0}}}
-    score = {"metrics": metrics, "early_end_rate": 0.05}
+    error = {"position_error_m": Interval(0.125, 0.1, 0.15)}
     other = ENTRY._replace(task="dq_marine/Other-v0")
-    page = markdown(
-        [Result(ENTRY, 19, 20, score), Result(other, 20, 20, score)], "dq-marine leaderboard", "Measured."
-    )
+    results = [result_of(ENTRY, 19, 20, **error), result_of(other, 20, 20, 0.25, **error)]
+    page = markdown(results, "dq-marine leaderboard", "Measured.")
     assert page.count("| vehicle | level | agent | success |") == 2
     assert "19 of 20 (76.4% to 99.1%)" in page  # Wilson's interval, as tables of it have it
-    assert "| 0.125 | 5.0% |" in page
+    assert "| 0.125 (0.1 to 0.15) | 0.01 (0.01 to 0.02) | 0.1 (0.1 to 0.1) | 5.0% |" in page
+    assert "| 0.1 (0.1 to 0.1) | 5 of 20 | 5.0% |" in page  # collisions, only of the task that measures them
+    assert "Scenarios together" not in page
+
+
+def test_the_page_sums_the_scenarios_up_and_lists_them():
+    results = []
+    for number, error in enumerate([0.0, 1.0, 2.0, 3.0, 100.0]):
+        entry = ENTRY._replace(level="", scenario=f"number_{number}")
+        results.append(result_of(entry, error < 3.0, 1, 0.0, error_m=Interval(error, error, error)))
+    page = markdown(results, "dq-marine leaderboard --scenarios", "Measured.")
+    assert "| controller | 3 of 5 (23.1% to 88.2%) | 2 (" in page  # of five, one is cut off at each end
+    assert "| number_4 | bluerov2_heavy | controller | no | 100 | 0.01 | 0.1 | 0 of 1 |" in page
+    assert "| number_0 | bluerov2_heavy | controller | yes | 0 |" in page
+
+
+def test_every_scenario_that_ships_is_flown():
+    found = scenario_entries([], [], ["controller", "zero"])
+    assert len(found) == 2 * len(scenarios_of())
+    assert len(set(found)) == len(found)
+    of_one = scenario_entries(["StationKeeping"], ["rexrov"], ["zero"])
+    assert {(one.task, one.vehicle) for one in of_one} == {(STATION_KEEPING, "rexrov")}
+    with pytest.raises(InvalidInputError, match="no scenarios ship for"):
+        scenario_entries(["StationKeeping"], ["remus100"], ["zero"])
+
+
+def test_a_scenario_is_flown_as_it_is_named():
+    """The drift of a vehicle that does nothing, from the scenario's start in the scenario's current."""
+    entry = Entry(STATION_KEEPING, "bluerov2_heavy", "", "zero", "head_current")
+    result = fly_entry(entry, PLAN)
+    env = make_scenario(load_scenario("StationKeeping/head_current"))
+    (score,) = evaluate(env, {"zero": make_baseline("zero", env)}, episodes=1, seed=0)
+    assert result.score == score.as_dict()
+    assert (result.episodes, result.figures["effort"]) == (1, Interval(0.0, 0.0, 0.0))
+    steady = score.metrics["position_error"].steady.mean
+    assert result.figures["position_error_m"] == pytest.approx((steady,) * 3)
+
+
+def test_a_policy_flies_what_it_was_trained_for_and_fits():
+    """It has no model here: what fits is told by task, vehicle and the shapes of the environments."""
+    policy = Policy("mine", Path("runs/mine"), "0123", EnvironmentSettings(id=STATION_KEEPING))
+    found = entries(["StationKeeping"], [], ["easy", "hard"], ["zero"], [policy])
+    mine = [one for one in found if one.agent == "mine"]
+    assert mine == [
+        Entry(STATION_KEEPING, "bluerov2_heavy", "easy", "mine")
+    ]  # "hard" shows sensors' ages, too
+    names = {one.scenario for one in scenario_entries(["StationKeeping", "Docking"], [], [], [policy])}
+    assert "calm" in names
+    assert names.isdisjoint({"real_sensors", "thrusters", "no_pitch", "torpedo"})
+    assert all(
+        environment_of(one).id == STATION_KEEPING
+        for one in scenario_entries(["StationKeeping"], [], [], [policy])
+    )
+
+
+def test_results_of_another_model_of_a_policy_are_flown_again(tmp_path):
+    kept, entry = Kept(tmp_path / "board.json", PLAN), ENTRY._replace(agent="mine")
+    old = Result(entry, 1, 3, {}, {"effort": Interval(0.0, 0.0, 0.0)}, policy="old")
+    kept.add(old)
+    assert Kept(kept.path, PLAN).results == {entry: old}
+    settings = EnvironmentSettings(id=STATION_KEEPING)
+    for digest, missing in (("old", []), ("new", [entry])):
+        policy = Policy("mine", Path("runs/mine"), digest, settings)
+        assert kept.missing([entry], {"mine": policy}) == missing
 
 
 def test_the_command_writes_page_and_figures(tmp_path):
@@ -104,6 +187,8 @@ def test_the_command_writes_page_and_figures(tmp_path):
         (["--out", "board.txt"], "ends in .md"),
         (["--out", "nowhere/board.md"], "does not exist"),
         (["--level", "x"], "x"),
+        (["--episodes", "0"], "nothing to fly; give --scenarios"),
+        (["--policy", "nowhere"], "holds no run"),
     ],
 )
 def test_the_command_refuses_before_it_flies(tmp_path, monkeypatch, options, message):

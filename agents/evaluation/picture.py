@@ -1,0 +1,44 @@
+"""A picture of a scenario: the baseline controller under way in it, with the way it came."""
+
+from __future__ import annotations
+
+import io
+
+from dq_marine.agents.controllers.baselines import controller_for
+from dq_marine.agents.evaluation.episodes import fly_episode
+from dq_marine.envs.scenarios.environment import make_scenario
+from dq_marine.envs.scenarios.model import Scenario
+from dq_marine.util.extras import extra_needed
+
+SHARE, FRAMES, COLOURS = 0.45, 9, 96
+"""How far on in its episode the vehicle is drawn, of how many moments its trail is, and how many colours there are."""
+
+
+def scenario_picture(scenario: Scenario) -> bytes:
+    """Return a picture as a PNG file of 640 x 480 pixels and some 25 kB.
+
+    Raises:
+        MissingDependencyError: meshcat, Pillow or a Chromium is not installed.
+        InvalidInputError: no controller of this package flies the scenario's task.
+    """
+    with extra_needed("a picture", "render"):
+        from PIL import Image
+    env = make_scenario(scenario, render_mode="rgb_array")
+    try:
+        agent = controller_for(env)
+        whole = fly_episode(env, agent, seed=scenario.seed, options=dict(scenario.reset))
+        last = int(SHARE * len(whole.rewards))
+        drawn = {last * number // (FRAMES - 1) for number in range(FRAMES)}
+        observation, _ = env.reset()
+        agent.reset(env)
+        for period in range(last + 1):
+            if period in drawn:
+                pixels = env.render()
+            if period < last:
+                observation = env.step(agent.act(observation))[0]
+    finally:
+        env.close()
+    file = io.BytesIO()
+    picture = Image.fromarray(pixels)  # type: ignore[arg-type]
+    picture.quantize(COLOURS, dither=Image.Dither.NONE).save(file, "png", optimize=True)
+    return file.getvalue()
