@@ -2,8 +2,10 @@
 
     z(x, y) = z_0 + sum over i of a_i sin(k_i . (x, y) + phi_i)                                         (1)
 
-The sum of a_i |k_i| bounds its slope s, so that a point's height above the seabed over sqrt(1 + s^2) is at most its
-distance from it, and changes by no more than the point moves: sphere tracing finds where a beam meets it.
+The sum of a_i |k_i| bounds its slope s, so that along a beam in the unit direction d, the height above the seabed falls
+by s sqrt(d_x^2 + d_y^2) + d_z per metre at most. Going on by the height over that, again and again, a beam meets the
+seabed and never passes it: sphere tracing (Hart 1996) with a bound that knows the direction, which goes straight down
+in one step.
 """
 
 from __future__ import annotations
@@ -12,8 +14,10 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.vector3 import Vector3
-from dq_marine.task.world.rays import make_trace
+from dq_marine.algebra.level import level_length
+from dq_marine.algebra.quaternion import rotate
+from dq_marine.algebra.vector3 import Vector3, add_scaled
+from dq_marine.integrator.body import Motion
 
 WAVE_DRAWS = 4
 """Uniform random numbers that a wave of a seabed takes."""
@@ -22,7 +26,10 @@ SHORTEST = 0.5
 """The shortest wave, over the longest."""
 
 TRACING = 16
-"""Steps of a beam to a seabed: what is left of a range shrinks to less than half in each, where slopes are gentle."""
+"""Steps of a beam to a seabed: what is left of a range shrinks by a fixed factor in each, the more the gentler it is."""
+
+LEAST_CLOSING = 1e-6
+"""Of a beam to the seabed, per metre: what comes closer more slowly, or not at all, goes on at this rate."""
 
 
 class Wave(NamedTuple):
@@ -63,16 +70,42 @@ def make_seabed(waves: int) -> Seabed:
     def depth(ground: Ground, north: float, east: float) -> float:
         return ground.depth + relief(ground.waves, north, east)
 
-    def nearer(ground: Ground, point: Vector3) -> float:
-        height = depth(ground, point[0], point[1]) - point[2]
-        return height / math.sqrt(1.0 + ground.steepest * ground.steepest)
+    def cast(ground: Ground, origin: Vector3, direction: Vector3, reach: float) -> float:
+        closing = ground.steepest * level_length((direction[0], direction[1])) + direction[2]
+        per_height = 1.0 / max(closing, LEAST_CLOSING)
+        travelled = 0.0 * origin[0]
+        for _ in range(TRACING):
+            point = add_scaled(origin, travelled, direction)
+            height = depth(ground, point[0], point[1]) - point[2]
+            travelled = min(travelled + max(height, 0.0) * per_height, reach)
+        return travelled
 
     def drawn(
         mean: float, steepest: float, longest: float, uniforms: tuple[float, ...], index: int
     ) -> Ground:
         return Ground(mean, steepest, drawn_waves(steepest / waves, longest, uniforms, index))
 
-    return Seabed(depth, make_trace(nearer, TRACING), drawn)
+    return Seabed(depth, cast, drawn)
+
+
+def make_under_keel(
+    depth: Callable[[Any, float, float], float],
+) -> Callable[[Any, Motion, float, float], float]:
+    """Return (ground, motion, half the length, half the height [m]) -> clearance of a hull from the ground [m].
+
+    It is the least height of bow, middle and stern above the ground, less half the hull's height.
+    """
+
+    def height(ground: Any, point: Vector3) -> float:
+        return depth(ground, point[0], point[1]) - point[2]
+
+    def under_keel(ground: Any, motion: Motion, half_length: float, half_height: float) -> float:
+        place, ahead = motion.position_ned, rotate(motion.attitude, (1.0, 0.0, 0.0))
+        bow = height(ground, add_scaled(place, half_length, ahead))
+        stern = height(ground, add_scaled(place, -half_length, ahead))
+        return min(height(ground, place), min(bow, stern)) - half_height
+
+    return under_keel
 
 
 def _make_relief(count: int, first: int) -> Callable[[Any, float, float], float]:
