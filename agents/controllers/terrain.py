@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, ClassVar
 
 import gymnasium as gym
@@ -49,8 +50,7 @@ class TerrainController(Journey):
         self._reach = inner.task_settings.reach * self._vehicle.dimensions.length
         self._profile = Profile(own.width * altitude, own.behind * altitude, altitude)
         beams = len(self._read(inner.observation_bound)["ground_ahead_readings"]) + 1
-        bearings = np.array(ground_bearings(beams))
-        self._beams_body = np.stack([np.cos(bearings), np.zeros(beams), np.sin(bearings)])
+        self._beams_body = [(math.cos(below), 0.0, math.sin(below)) for below in ground_bearings(beams)]
         self._altitude = altitude
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
@@ -69,16 +69,18 @@ class TerrainController(Journey):
         self._look(np.append(parts["ground_ahead_readings"], parts["altimeter_reading"]), attitude)
         axis = YAW if self._pilot.by_heave else PITCH
         lead = self._terrain.lead * speed / self._pilot.angle_gain(axis)
-        here, soon = self._profile.at(0.0), self._profile.at(lead)
+        here, soon = self._profile.at(0.0, 0.0), self._profile.at(lead * ahead, lead * starboard)
         off = Offset(float(parts["starboard_of_track"][0]), self._altitude - here.below)
-        order = self._guidance.order_along(attitude, speed, (ahead, starboard, soon.fall), 0.0, off)
+        way = (ahead, starboard, soon.ahead * ahead + soon.starboard * starboard)
+        order = self._guidance.order_along(attitude, speed, way, 0.0, off)
         return self._pilot.act(attitude, order._replace(speed_error=float(parts["speed_error"][0])))
 
     def _look(self, readings: Array, attitude: Attitude) -> None:
         """Bring the profile of the ground up to now."""
-        ahead, _, down = attitude.velocity_level
-        self._profile.move(self._pilot.period * ahead, self._pilot.period * down)
+        period = self._pilot.period
+        ahead, starboard, down = attitude.velocity_level
+        turn = period * float(attitude.velocity_body[5])
+        self._profile.move((period * ahead, period * starboard, period * down), turn)
         met = readings < 1.0
-        ahead_unit, _, below_unit = levelled(self._beams_body, attitude.roll, attitude.pitch)
-        ranges = self._reach * readings[met]
-        self._profile.add(ranges * ahead_unit[met], ranges * below_unit[met])
+        beams = np.array([levelled(beam, attitude.roll, attitude.pitch) for beam in self._beams_body])
+        self._profile.add(self._reach * readings[met, None] * beams[met])

@@ -100,8 +100,12 @@ def test_errors_are_normal_and_lost_as_often_as_told_and_do_not_depend_on_each_o
     errors=st.tuples(*[st.floats(-REACH, REACH) | st.just(1e9)] * 4),
 )
 def test_readings_are_shares_of_the_reach(ranges, errors):
-    told = make_readings(4)(ranges, errors, REACH)
-    assert np.allclose(told, np.clip((np.array(ranges) + errors) / REACH, 0.0, 1.0))
+    told, met = make_readings(4)(ranges, errors, REACH), np.array(ranges) < REACH
+    assert np.allclose(told, np.where(met, np.clip((np.array(ranges) + errors) / REACH, 0.0, 1.0), 1.0))
+
+
+def test_a_beam_that_meets_nothing_reads_so_whatever_its_error():
+    assert make_readings(2)((REACH, 0.5 * REACH), (-0.3, -0.3), REACH) == (1.0, 0.5 - 0.3 / REACH)
 
 
 @given(seed=seeds, course=angles)

@@ -103,10 +103,11 @@ def make_errors(beams: int, first: int = 0) -> Callable[[float, float, tuple[flo
 
 
 def make_readings(beams: int, first: int = 0) -> Callable[[Any, Any, float], Any]:
-    """Return (ranges [m], errors [m], reach [m]) -> readings as shares of the reach."""
+    """Return (ranges [m], errors [m], reach [m]) -> readings as shares of the reach: 1 where no echo comes back."""
 
     def one(ranges: Any, errors: Any, reach: float) -> Any:
-        return (max(0.0, min(1.0, (ranges[first] + errors[first]) / reach)),)
+        told = max(0.0, min(1.0, (ranges[first] + errors[first]) / reach))
+        return (select(ranges[first] < reach, told, 1.0),)
 
     if first == beams - 1:
         return one

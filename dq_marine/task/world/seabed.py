@@ -2,10 +2,13 @@
 
     z(x, y) = z_0 + sum over i of a_i sin(k_i . (x, y) + phi_i)                                         (1)
 
-The sum of a_i |k_i| bounds its slope s, so that along a beam in the unit direction d, the height above the seabed falls
-by s sqrt(d_x^2 + d_y^2) + d_z per metre at most. Going on by the height over that, again and again, a beam meets the
-seabed and never passes it: sphere tracing (Hart 1996) with a bound that knows the direction, which goes straight down
-in one step.
+The sum of a_i |k_i| bounds its slope s, and that of a_i |k_i|^2 its bend c. Along a beam in the unit direction d, whose
+part from above is l = |(d_x, d_y)|, the height h above the seabed is therefore, at a way t from a point of the beam,
+
+    h(t) >= h - t (s l + d_z),    h(t) >= h + h' t - c l^2 t^2 / 2                                        (2)
+
+Sphere tracing (Hart 1996) goes on by the larger of the ways at which these bounds are 0, again and again: it never
+passes the seabed, and near it each step is about one of Newton's.
 """
 
 from __future__ import annotations
@@ -15,9 +18,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.level import level_length
-from dq_marine.algebra.quaternion import rotate
+from dq_marine.algebra.selection import smallest_normal
 from dq_marine.algebra.vector3 import Vector3, add_scaled
-from dq_marine.integrator.body import Motion
 
 WAVE_DRAWS = 4
 """Uniform random numbers that a wave of a seabed takes."""
@@ -25,11 +27,11 @@ WAVE_DRAWS = 4
 SHORTEST = 0.5
 """The shortest wave, over the longest."""
 
-TRACING = 16
-"""Steps of a beam to a seabed: what is left of a range shrinks by a fixed factor in each, the more the gentler it is."""
+TRACING = 8
+"""Steps of a beam to a seabed."""
 
 LEAST_CLOSING = 1e-6
-"""Of a beam to the seabed, per metre: what comes closer more slowly, or not at all, goes on at this rate."""
+"""Of a beam and the seabed, per metre: what comes closer more slowly, or not at all, is taken to come at this rate."""
 
 
 class Wave(NamedTuple):
@@ -42,10 +44,11 @@ class Wave(NamedTuple):
 
 
 class Ground(NamedTuple):
-    """A seabed: mean depth [m], the largest slope, waves."""
+    """A seabed: mean depth [m], bounds of slope and bend [1/m], waves."""
 
     depth: float
     steepest: float
+    sharpest: float
     waves: Any
 
 
@@ -65,47 +68,38 @@ class Seabed(NamedTuple):
 
 def make_seabed(waves: int) -> Seabed:
     """Return the functions of a seabed of so many waves."""
-    relief, drawn_waves = _make_relief(waves, 0), _make_drawn(waves, 0)
+    relief, relief_along = _make_relief(waves, 0), _make_relief_along(waves, 0)
+    drawn_waves = _make_drawn(waves, 0)
 
     def depth(ground: Ground, north: float, east: float) -> float:
         return ground.depth + relief(ground.waves, north, east)
 
     def cast(ground: Ground, origin: Vector3, direction: Vector3, reach: float) -> float:
-        closing = ground.steepest * level_length((direction[0], direction[1])) + direction[2]
-        per_height = 1.0 / max(closing, LEAST_CLOSING)
+        level = level_length((direction[0], direction[1]))
+        closing = max(ground.steepest * level + direction[2], LEAST_CLOSING)
+        bend = max(ground.sharpest * level * level, smallest_normal(level))
         travelled = 0.0 * origin[0]
         for _ in range(TRACING):
             point = add_scaled(origin, travelled, direction)
-            height = depth(ground, point[0], point[1]) - point[2]
-            travelled = min(travelled + max(height, 0.0) * per_height, reach)
+            below, growth = relief_along(ground.waves, point[0], point[1], direction[0], direction[1])
+            height = max(ground.depth + below - point[2], 0.0)
+            falling = direction[2] - growth
+            # The root of the parabola in (2), without a difference: Press et al. 2007, Numerical Recipes, 5.6.
+            bent = (
+                2.0
+                * height
+                / max(falling + math.sqrt(falling * falling + 2.0 * bend * height), LEAST_CLOSING)
+            )
+            travelled = min(travelled + max(height / closing, bent), reach)
         return travelled
 
     def drawn(
         mean: float, steepest: float, longest: float, uniforms: tuple[float, ...], index: int
     ) -> Ground:
-        return Ground(mean, steepest, drawn_waves(steepest / waves, longest, uniforms, index))
+        sharpest = steepest * 2.0 * math.pi / (SHORTEST * longest)
+        return Ground(mean, steepest, sharpest, drawn_waves(steepest / waves, longest, uniforms, index))
 
     return Seabed(depth, cast, drawn)
-
-
-def make_under_keel(
-    depth: Callable[[Any, float, float], float],
-) -> Callable[[Any, Motion, float, float], float]:
-    """Return (ground, motion, half the length, half the height [m]) -> clearance of a hull from the ground [m].
-
-    It is the least height of bow, middle and stern above the ground, less half the hull's height.
-    """
-
-    def height(ground: Any, point: Vector3) -> float:
-        return depth(ground, point[0], point[1]) - point[2]
-
-    def under_keel(ground: Any, motion: Motion, half_length: float, half_height: float) -> float:
-        place, ahead = motion.position_ned, rotate(motion.attitude, (1.0, 0.0, 0.0))
-        bow = height(ground, add_scaled(place, half_length, ahead))
-        stern = height(ground, add_scaled(place, -half_length, ahead))
-        return min(height(ground, place), min(bow, stern)) - half_height
-
-    return under_keel
 
 
 def _make_relief(count: int, first: int) -> Callable[[Any, float, float], float]:
@@ -121,6 +115,27 @@ def _make_relief(count: int, first: int) -> Callable[[Any, float, float], float]
         return one(waves, north, east) + rest(waves, north, east)
 
     return relief
+
+
+def _make_relief_along(count: int, first: int) -> Callable[[Any, float, float, float, float], Any]:
+    """Return (waves, north, east, a direction's parts) -> relief at a place, and its growth per metre that way."""
+
+    def one(waves: Any, north: float, east: float, way_north: float, way_east: float) -> Any:
+        wave: Wave = waves[first]
+        phase = wave.north * north + wave.east * east + wave.phase
+        rate = wave.north * way_north + wave.east * way_east
+        return wave.amplitude * math.sin(phase), wave.amplitude * rate * math.cos(phase)
+
+    if first == count - 1:
+        return one
+    rest = _make_relief_along(count, first + 1)
+
+    def relief_along(waves: Any, north: float, east: float, way_north: float, way_east: float) -> Any:
+        own = one(waves, north, east, way_north, way_east)
+        others = rest(waves, north, east, way_north, way_east)
+        return own[0] + others[0], own[1] + others[1]
+
+    return relief_along
 
 
 def _make_drawn(count: int, first: int) -> Callable[[float, float, tuple[float, ...], int], Any]:
