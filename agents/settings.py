@@ -120,7 +120,7 @@ class AvoidanceSettings(Settings):
     slowing_room: Positive
 
 
-class TerrainSettings(Settings):
+class GroundSettings(Settings):
     """Flight at an altitude over the ground, as shares of the altitude but for `lead`.
 
     Attributes:

@@ -7,11 +7,11 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from dq_marine.algebra.euler import quaternion_from_euler
-from dq_marine.algebra.level import Level
+from dq_marine.algebra.level import Level, from_above
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
-from dq_marine.task.things import Column, Cone, Line, Relief, ShipHull, Thing
+from dq_marine.task.things import Column, Cone, Line, Relief, ShipHull, Thing, Tube
 from dq_marine.task.traffic import OtherVessel
 from dq_marine.task.world.pillars import Pillar
 
@@ -84,6 +84,27 @@ def ground_seen(
     return [Thing(Relief(norths, easts, depths))]
 
 
+def pipe_seen(
+    depth: Callable[[Any, float, float], float],
+    ground: Any,
+    route: Sequence[Vector3],
+    radius: float,
+    margin: float,
+) -> list[Thing]:
+    """Return a pipe that lies on the ground, and the ground about it.
+
+    Args:
+        depth: (ground, north, east) -> depth there [m].
+        ground: what that is about.
+        route: points above or below the pipe [m].
+        radius: of the pipe [m].
+        margin: how far around it the ground is drawn [m].
+    """
+    places = [from_above(point) for point in route]
+    axis = tuple((north, east, depth(ground, north, east) - radius) for north, east in places)
+    return [*ground_seen(depth, ground, places, margin), Thing(Tube(axis, radius))]
+
+
 def _sampled(along: Sequence[float], margin: float) -> tuple[float, ...]:
     least, most = min(along) - margin, max(along) + margin
     return tuple(least + (most - least) * number / (SAMPLES - 1) for number in range(SAMPLES))
@@ -91,4 +112,9 @@ def _sampled(along: Sequence[float], margin: float) -> tuple[float, ...]:
 
 def curve_seen(at: Callable[[float], Vector3], end: float, thickness: float) -> list[Thing]:
     """Return a curve to follow, given by its point [m] at any parameter from 0 to an end."""
-    return line_seen([at(end * number / (POINTS - 1)) for number in range(POINTS)], thickness)
+    return line_seen(along_curve(at, end), thickness)
+
+
+def along_curve(at: Callable[[float], Vector3], end: float) -> list[Vector3]:
+    """Return `POINTS` points of a curve that is given by its point at any parameter from 0 to an end [m]."""
+    return [at(end * number / (POINTS - 1)) for number in range(POINTS)]

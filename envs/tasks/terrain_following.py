@@ -8,27 +8,28 @@ from typing import Any, NamedTuple
 
 from dq_marine.algebra.level import Level
 from dq_marine.algebra.quaternion import rotate_inverse
-from dq_marine.algebra.selection import select, spread
+from dq_marine.algebra.selection import spread
 from dq_marine.algebra.vector3 import bounded, bounded_vector
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.ground_settings import DISTURBED, QUIET, GroundSettings, ground_flight, over_ground
 from dq_marine.envs.core.suitability import paced, unable_to_dive_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
-from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
-from dq_marine.task.ground_flight import GroundFlight
+from dq_marine.task.common import SPEED_BOUND, observed_velocity
+from dq_marine.task.ground_flight import FlightRewards as Rewards
+from dq_marine.task.ground_flight import GroundFlight, flight_rewards
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import ground_seen
 from dq_marine.task.starts import under_way
 from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
 from dq_marine.task.tracks import on_track
-from dq_marine.task.world.beams import BOW, DOWN, ground_bearings, make_errors, make_fan, make_readings
+from dq_marine.task.world.beams import make_errors, make_fan_ahead, make_readings
 from dq_marine.task.world.keel import make_keel_over
 from dq_marine.task.world.seabed import WAVE_DRAWS, Ground, make_seabed
 
 WAVES, BEAMS = 4, 6  # of the seabed; and beams, the last of which is the altimeter
-depth_at, cast, ground_drawn = make_seabed(WAVES)
-keel_over, fan = make_keel_over(depth_at), make_fan(ground_bearings(BEAMS), cast, BOW, DOWN)
+depth_at, cast, ground_drawn, _ = make_seabed(WAVES)
+keel_over, fan = make_keel_over(depth_at), make_fan_ahead(BEAMS, cast)
 drawn_errors, readings = make_errors(BEAMS), make_readings(BEAMS)
 EXACT = (0.0,) * BEAMS  # errors before there are readings
 START_TURN, START_OFF, START_DRAWS = math.radians(20.0), 0.2, 4  # from the track [rad], the altitude [share]
@@ -90,16 +91,6 @@ class Memory(NamedTuple):
     metrics: Metrics
 
 
-class Rewards(NamedTuple):
-    """Terms of the reward, and their weights: way made at the right altitude, nearness to it, end, contact, effort."""
-
-    progress: float = 0.4
-    nearness: float = 0.6
-    finish: float = 10.0
-    contact: float = 20.0
-    effort: float = 0.02
-
-
 def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
     flight, length = ground_flight(settings, context), context.vehicle.dimensions.length
@@ -159,7 +150,7 @@ def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
     here = on_track(course, measured)
     return (
         readings(memory.ranges, memory.errors, flight.reach),
-        spread(flight.altitude / flight.reach, here.along),
+        spread(flight.altitude, here.along),
         bounded(here.starboard, 2.0 * LOST * flight.altitude),
         bounded_vector(rotate_inverse(attitude, (course[0], course[1], 0.0)), 1.0),
         bounded_vector(rotate_inverse(attitude, (0.0, 0.0, 1.0)), 1.0),
@@ -177,7 +168,7 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
             "ground_ahead_readings", "", BEAMS - 1, 1.0, "free way over the reach, the lowest beam last"
         ),
         Observed("altimeter_reading", "", 1, 1.0, "the same of the beam straight down"),
-        Observed("ordered_altitude", "", 1, 1.0, "the altitude to keep, over the reach"),
+        Observed("ordered_altitude", "m", 1, 0.5 * far / LOST, "the altitude to keep"),
         Observed("starboard_of_track", "m", 1, far, "how far the vehicle is to starboard of the track"),
         Observed("track_ahead_body", "", 3, 1.0, "where the track goes, level"),
         Observed("down_body", "", 3, 1.0, "where down is"),
@@ -194,15 +185,9 @@ def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
 
 def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
-    off = abs(now.metrics.altitude_error) / own.flight.altitude
+    off = 2.0 * abs(now.metrics.altitude_error) / own.flight.altitude
     pace = now.memory.gained / (own.flight.speed * own.flight.period)
-    return Rewards(
-        weights.progress * max(-1.0, min(pace, 2.0 - pace)) * math.exp(-2.0 * off),
-        weights.nearness * math.exp(-10.0 * off),
-        weights.finish * select(succeeded(own, now), 1.0, 0.0),
-        -(weights.contact * select(now.metrics.clearance < 0.0, 1.0, 0.0)),
-        effort(weights.effort, now),
-    )
+    return flight_rewards(weights, now, pace, off, succeeded(own, now))
 
 
 def succeeded(own: Parameters, now: Situation) -> Any:

@@ -17,6 +17,9 @@ FORWARD = math.pi
 BOW, STARBOARD, DOWN = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 """Unit vectors in the body frame."""
 
+SWATH = math.radians(100.0)
+"""Angle of a fan that sees the ground across the way [rad]."""
+
 HIGHEST_BEAM = math.radians(15.0)
 """Of a fan that sees the ground ahead: how far below the bow [rad]."""
 
@@ -58,6 +61,16 @@ def make_fan(
         return beams(world, position, rotate(attitude, middle), rotate(attitude, side), reach)
 
     return fan
+
+
+def make_fan_ahead(beams: int, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
+    """Return the fan of `make_fan` that sees the ground ahead and, by its last beam, straight down."""
+    return make_fan(ground_bearings(beams), cast, BOW, DOWN)
+
+
+def make_fan_across(beams: int, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
+    """Return the fan of `make_fan` that sees the ground across the way, from port to starboard within `SWATH`."""
+    return make_fan(fan_bearings(beams, SWATH), cast, DOWN, STARBOARD)
 
 
 def _make_beams(bearings: tuple[float, ...], cast: Cast) -> Callable[..., Any]:

@@ -59,11 +59,13 @@ class Seabed(NamedTuple):
         depth: (ground, north, east) -> depth there [m].
         cast: (ground, origin, direction, reach) -> range along a ray [m].
         drawn: (depth [m], steepest slope, longest wave [m], uniforms, index) -> ground; takes `WAVE_DRAWS` for each.
+        along: (ground, north, east, a level direction's parts) -> depth there [m], and its growth per metre that way.
     """
 
     depth: Callable[[Ground, float, float], float]
     cast: Callable[[Ground, Vector3, Vector3, float], float]
     drawn: Callable[[float, float, float, tuple[float, ...], int], Ground]
+    along: Callable[[Ground, float, float, float, float], tuple[float, float]]
 
 
 def make_seabed(waves: int) -> Seabed:
@@ -74,6 +76,12 @@ def make_seabed(waves: int) -> Seabed:
     def depth(ground: Ground, north: float, east: float) -> float:
         return ground.depth + relief(ground.waves, north, east)
 
+    def along(
+        ground: Ground, north: float, east: float, way_north: float, way_east: float
+    ) -> tuple[float, float]:
+        below, growth = relief_along(ground.waves, north, east, way_north, way_east)
+        return ground.depth + below, growth
+
     def cast(ground: Ground, origin: Vector3, direction: Vector3, reach: float) -> float:
         level = level_length((direction[0], direction[1]))
         closing = max(ground.steepest * level + direction[2], LEAST_CLOSING)
@@ -81,15 +89,11 @@ def make_seabed(waves: int) -> Seabed:
         travelled = 0.0 * origin[0]
         for _ in range(TRACING):
             point = add_scaled(origin, travelled, direction)
-            below, growth = relief_along(ground.waves, point[0], point[1], direction[0], direction[1])
-            height = max(ground.depth + below - point[2], 0.0)
-            falling = direction[2] - growth
+            below, growth = along(ground, point[0], point[1], direction[0], direction[1])
+            height, falling = max(below - point[2], 0.0), direction[2] - growth
             # The root of the parabola in (2), without a difference: Press et al. 2007, Numerical Recipes, 5.6.
-            bent = (
-                2.0
-                * height
-                / max(falling + math.sqrt(falling * falling + 2.0 * bend * height), LEAST_CLOSING)
-            )
+            spread = falling + math.sqrt(falling * falling + 2.0 * bend * height)
+            bent = 2.0 * height / max(spread, LEAST_CLOSING)
             travelled = min(travelled + max(height / closing, bent), reach)
         return travelled
 
@@ -99,7 +103,7 @@ def make_seabed(waves: int) -> Seabed:
         sharpest = steepest * 2.0 * math.pi / (SHORTEST * longest)
         return Ground(mean, steepest, sharpest, drawn_waves(steepest / waves, longest, uniforms, index))
 
-    return Seabed(depth, cast, drawn)
+    return Seabed(depth, cast, drawn, along)
 
 
 def _make_relief(count: int, first: int) -> Callable[[Any, float, float], float]:
