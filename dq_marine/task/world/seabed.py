@@ -2,10 +2,10 @@
 
     z(x, y) = z_0 + sum over i of a_i sin(k_i . (x, y) + phi_i)                                         (1)
 
-The sum of a_i |k_i| bounds its slope s, and that of a_i |k_i|^2 its bend c. Along a beam in the unit direction d, whose
-part from above is l = |(d_x, d_y)|, the height h above the seabed is therefore, at a way t from a point of the beam,
+Along a beam in the unit direction d, whose part seen from above is l = (d_x, d_y), the height h above the seabed is
+therefore, at a way t on from a point of the beam,
 
-    h(t) >= h - t (s l + d_z),    h(t) >= h + h' t - c l^2 t^2 / 2                                        (2)
+    h(t) >= h - t (sum of a_i |k_i . l| + d_z),    h(t) >= h + h' t - t^2 / 2 sum of a_i (k_i . l)^2      (2)
 
 Sphere tracing (Hart 1996) goes on by the larger of the ways at which these bounds are 0, again and again: it never
 passes the seabed, and near it each step is about one of Newton's.
@@ -17,8 +17,6 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.level import level_length
-from dq_marine.algebra.selection import smallest_normal
 from dq_marine.algebra.vector3 import Vector3, add_scaled
 
 WAVE_DRAWS = 4
@@ -44,11 +42,9 @@ class Wave(NamedTuple):
 
 
 class Ground(NamedTuple):
-    """A seabed: mean depth [m], bounds of slope and bend [1/m], waves."""
+    """A seabed: mean depth [m], and waves."""
 
     depth: float
-    steepest: float
-    sharpest: float
     waves: Any
 
 
@@ -71,7 +67,7 @@ class Seabed(NamedTuple):
 def make_seabed(waves: int) -> Seabed:
     """Return the functions of a seabed of so many waves."""
     relief, relief_along = _make_relief(waves, 0), _make_relief_along(waves, 0)
-    drawn_waves = _make_drawn(waves, 0)
+    bounds, drawn_waves = _make_bounds(waves, 0), _make_drawn(waves, 0)
 
     def depth(ground: Ground, north: float, east: float) -> float:
         return ground.depth + relief(ground.waves, north, east)
@@ -83,9 +79,8 @@ def make_seabed(waves: int) -> Seabed:
         return ground.depth + below, growth
 
     def cast(ground: Ground, origin: Vector3, direction: Vector3, reach: float) -> float:
-        level = level_length((direction[0], direction[1]))
-        closing = max(ground.steepest * level + direction[2], LEAST_CLOSING)
-        bend = max(ground.sharpest * level * level, smallest_normal(level))
+        slope, bend = bounds(ground.waves, direction[0], direction[1])
+        closing = max(slope + direction[2], LEAST_CLOSING)
         travelled = 0.0 * origin[0]
         for _ in range(TRACING):
             point = add_scaled(origin, travelled, direction)
@@ -100,8 +95,7 @@ def make_seabed(waves: int) -> Seabed:
     def drawn(
         mean: float, steepest: float, longest: float, uniforms: tuple[float, ...], index: int
     ) -> Ground:
-        sharpest = steepest * 2.0 * math.pi / (SHORTEST * longest)
-        return Ground(mean, steepest, sharpest, drawn_waves(steepest / waves, longest, uniforms, index))
+        return Ground(mean, drawn_waves(steepest / waves, longest, uniforms, index))
 
     return Seabed(depth, cast, drawn, along)
 
@@ -140,6 +134,25 @@ def _make_relief_along(count: int, first: int) -> Callable[[Any, float, float, f
         return own[0] + others[0], own[1] + others[1]
 
     return relief_along
+
+
+def _make_bounds(count: int, first: int) -> Callable[[Any, float, float], Any]:
+    """Return (waves, a direction's parts) -> bounds of slope and bend [1/m] that way, those in (2)."""
+
+    def one(waves: Any, way_north: float, way_east: float) -> Any:
+        wave: Wave = waves[first]
+        rate = abs(wave.north * way_north + wave.east * way_east)
+        return wave.amplitude * rate, wave.amplitude * rate * rate
+
+    if first == count - 1:
+        return one
+    rest = _make_bounds(count, first + 1)
+
+    def bounds(waves: Any, way_north: float, way_east: float) -> Any:
+        own, others = one(waves, way_north, way_east), rest(waves, way_north, way_east)
+        return own[0] + others[0], own[1] + others[1]
+
+    return bounds
 
 
 def _make_drawn(count: int, first: int) -> Callable[[float, float, tuple[float, ...], int], Any]:
