@@ -120,6 +120,20 @@ class AvoidanceSettings(Settings):
     slowing_room: Positive
 
 
+class GroundSettings(Settings):
+    """Flight at an altitude over the ground, as shares of the altitude but for `lead`.
+
+    Attributes:
+        width: over which echoes of the ground are smoothed.
+        behind: how far behind the vehicle they are kept.
+        lead: how far ahead the slope is taken that is followed, over the way in the time constant of the angle loop.
+    """
+
+    width: Positive
+    behind: NonNegative
+    lead: NonNegative
+
+
 class EnvironmentSettings(Settings):
     """The environment: its registered id and the keywords of `gymnasium.make`."""
 

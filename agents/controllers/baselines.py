@@ -12,7 +12,9 @@ from dq_marine.agents.controllers.docking import DockingController
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.encounters import EncounterController
 from dq_marine.agents.controllers.journeys import DepthHeadingController, PathController, WaypointController
+from dq_marine.agents.controllers.pipelines import PipelineController
 from dq_marine.agents.controllers.reading import shown_names
+from dq_marine.agents.controllers.terrain import TerrainController
 from dq_marine.agents.environments import marine
 from dq_marine.checks import one_of
 from dq_marine.envs.core.marine_env import Action
@@ -62,6 +64,8 @@ CONTROLLERS: tuple[type[Controller], ...] = (
     DepthHeadingController,
     EncounterController,
     AvoidanceController,
+    TerrainController,
+    PipelineController,
 )
 """What "controller" may mean: the first of them that an environment shows enough to."""
 

@@ -41,11 +41,31 @@ class LineOfSight:
             bend_body: its curvature [1 / vehicle length], shape (3,).
             off: how far the vehicle is to starboard of the path and below it [m].
         """
-        level, upright = self._sights or self._make_sights(speed)
         way = levelled(tuple(ahead_body.tolist()), attitude.roll, attitude.pitch)
         bend = levelled(tuple(bend_body.tolist()), attitude.roll, attitude.pitch)
         along = math.hypot(way[0], way[1])
         turning = speed * (way[0] * bend[1] - way[1] * bend[0]) / along / self._pilot.length
+        return self.order_along(attitude, speed, way, turning, off)
+
+    def order_along(
+        self,
+        attitude: Attitude,
+        speed: float,
+        way: tuple[float, float, float],
+        turning: float,
+        off: Offset,
+    ) -> Order:
+        """Return the order for a speed along a path [m/s].
+
+        Args:
+            attitude: of the vehicle.
+            speed: wanted over ground.
+            way: where the path goes, ahead, to starboard and down of the vehicle if it were level.
+            turning: how fast the path's course turns to starboard at that speed [rad/s].
+            off: how far the vehicle is to starboard of the path and below it [m].
+        """
+        level, upright = self._sights or self._make_sights(speed)
+        along = math.hypot(way[0], way[1])
         course = math.atan2(way[1], way[0]) + level.correction(off.starboard, speed)
         climb = math.atan2(-way[2], along) + upright.correction(-off.below, speed)
         return Order(speed, speed - attitude.speed, course - attitude.drift_angle, turning, climb)

@@ -14,6 +14,11 @@ from dq_marine.algebra.quaternion import Quaternion, rotate
 Level: TypeAlias = tuple[float, float]
 
 
+def from_above(a: tuple[float, float, float]) -> Level:
+    """Return a vector in NED as it is seen from above."""
+    return (a[0], a[1])
+
+
 def level_dot(a: Level, b: Level) -> float:
     """Return the scalar product."""
     return a[0] * b[0] + a[1] * b[1]

@@ -12,7 +12,9 @@ from numba.core import cgutils
 from numba.core.typing import signature
 from numba.extending import intrinsic, models, overload, register_model
 
-from dq_marine.algebra.table import Table
+from dq_marine.algebra.table import Table, entry
+from dq_marine.backend.lane_type import Lanes
+from dq_marine.backend.selection import provide
 from dq_marine.errors import InvalidInputError
 
 
@@ -56,6 +58,34 @@ def _len(table: Any) -> Any:
         return None
     count = table.count
     return lambda table: count
+
+
+@intrinsic
+def numbers_at(typing_context: Any, table: Any, places: Any) -> Any:
+    """The numbers that stand at the places of lanes, each read by itself."""
+    result = places.of(places.precision)
+
+    def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
+        found = ir.Constant(result.vector, ir.Undefined)
+        for lane in range(places.width):
+            index = ir.Constant(ir.IntType(32), lane)
+            place = builder.extract_element(values[1], index)
+            whole = context.cast(builder, place, places.dtype, types.intp)
+            number = builder.load(cgutils.gep_inbounds(builder, values[0], whole))
+            number = context.cast(builder, number, types.float64, result.dtype)
+            found = builder.insert_element(found, number, index)
+        return found
+
+    return signature(result, table, places), generate
+
+
+@provide(entry)
+def _entry(table: Any, place: Any) -> Any:
+    if not isinstance(table, TableType):
+        return None
+    if isinstance(place, Lanes):
+        return None if place.piled else lambda table, place: numbers_at(table, place)
+    return lambda table, place: number_at(table, int(place))
 
 
 def tables_in(structure: Any) -> list[Table]:

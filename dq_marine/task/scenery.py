@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from dq_marine.algebra.euler import quaternion_from_euler
+from dq_marine.algebra.level import Level, from_above
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
-from dq_marine.task.things import Column, Cone, Line, ShipHull, Thing
+from dq_marine.task.things import Column, Cone, Line, Relief, ShipHull, Thing, Tube
 from dq_marine.task.traffic import OtherVessel
 from dq_marine.task.world.pillars import Pillar
 
@@ -21,6 +23,9 @@ TURNS = 3.0
 
 POINTS = 241
 """At which a curve is drawn."""
+
+SAMPLES = 49
+"""Of the ground, along each axis."""
 
 
 def pillars_seen(pillars: Sequence[Pillar], depth: float, length: float) -> list[Thing]:
@@ -63,6 +68,53 @@ def line_seen(points: Sequence[Vector3], thickness: float) -> list[Thing]:
     return [Thing(Line(tuple(points), 0.5 * thickness))]
 
 
+def ground_seen(
+    depth: Callable[[Any, float, float], float], ground: Any, track: Sequence[Level], margin: float
+) -> list[Thing]:
+    """Return the ground about a track, given by places on it, as far as a margin beyond them [m].
+
+    Args:
+        depth: (ground, north, east) -> depth there [m].
+        ground: what that is about.
+        track: places, seen from above [m].
+        margin: how far around them the ground is drawn [m].
+    """
+    norths, easts = (_sampled([place[axis] for place in track], margin) for axis in (0, 1))
+    depths = tuple(depth(ground, north, east) for north in norths for east in easts)
+    return [Thing(Relief(norths, easts, depths))]
+
+
+def pipe_seen(
+    depth: Callable[[Any, float, float], float],
+    ground: Any,
+    route: Sequence[Vector3],
+    radius: float,
+    margin: float,
+) -> list[Thing]:
+    """Return a pipe that lies on the ground, and the ground about it.
+
+    Args:
+        depth: (ground, north, east) -> depth there [m].
+        ground: what that is about.
+        route: points above or below the pipe [m].
+        radius: of the pipe [m].
+        margin: how far around it the ground is drawn [m].
+    """
+    places = [from_above(point) for point in route]
+    axis = tuple((north, east, depth(ground, north, east) - radius) for north, east in places)
+    return [*ground_seen(depth, ground, places, margin), Thing(Tube(axis, radius))]
+
+
+def _sampled(along: Sequence[float], margin: float) -> tuple[float, ...]:
+    least, most = min(along) - margin, max(along) + margin
+    return tuple(least + (most - least) * number / (SAMPLES - 1) for number in range(SAMPLES))
+
+
 def curve_seen(at: Callable[[float], Vector3], end: float, thickness: float) -> list[Thing]:
     """Return a curve to follow, given by its point [m] at any parameter from 0 to an end."""
-    return line_seen([at(end * number / (POINTS - 1)) for number in range(POINTS)], thickness)
+    return line_seen(along_curve(at, end), thickness)
+
+
+def along_curve(at: Callable[[float], Vector3], end: float) -> list[Vector3]:
+    """Return `POINTS` points of a curve that is given by its point at any parameter from 0 to an end [m]."""
+    return [at(end * number / (POINTS - 1)) for number in range(POINTS)]

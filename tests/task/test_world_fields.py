@@ -9,7 +9,20 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from dq_marine.algebra.euler import quaternion_from_euler
-from dq_marine.task.world.beams import FORWARD, fan_bearings, make_errors, make_fan, make_readings
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.integrator.body import Motion
+from dq_marine.task.world.beams import (
+    FORWARD,
+    SWATH,
+    fan_bearings,
+    ground_bearings,
+    make_errors,
+    make_fan,
+    make_fan_across,
+    make_fan_ahead,
+    make_readings,
+)
+from dq_marine.task.world.keel import Keel, make_keel_over
 from dq_marine.task.world.pillars import (
     SCATTER,
     THICKNESS,
@@ -100,8 +113,12 @@ def test_errors_are_normal_and_lost_as_often_as_told_and_do_not_depend_on_each_o
     errors=st.tuples(*[st.floats(-REACH, REACH) | st.just(1e9)] * 4),
 )
 def test_readings_are_shares_of_the_reach(ranges, errors):
-    told = make_readings(4)(ranges, errors, REACH)
-    assert np.allclose(told, np.clip((np.array(ranges) + errors) / REACH, 0.0, 1.0))
+    told, met = make_readings(4)(ranges, errors, REACH), np.array(ranges) < REACH
+    assert np.allclose(told, np.where(met, np.clip((np.array(ranges) + errors) / REACH, 0.0, 1.0), 1.0))
+
+
+def test_a_beam_that_meets_nothing_reads_so_whatever_its_error():
+    assert make_readings(2)((REACH, 0.5 * REACH), (-0.3, -0.3), REACH) == (1.0, 0.5 - 0.3 / REACH)
 
 
 @given(seed=seeds, course=angles)
@@ -169,3 +186,75 @@ def test_a_beam_ends_at_the_seabed_where_brents_method_finds_it(seed, heading, t
     found = SEABED.cast(own, (0.0, 0.0, 20.0), direction, 1e3)
     assert met * (1.0 - 1e-3) <= found <= met + 1e-9
     assert SEABED.cast(own, (0.0, 0.0, 20.0), direction, 2.0) == pytest.approx(min(found, 2.0))
+
+
+@given(seed=seeds, heading=angles, below=st.floats(-0.2, 0.5))
+def test_a_beam_that_grazes_the_seabed_stops_at_it_and_not_before(seed, heading, below):
+    """Where the bound of the slope alone would creep: the first crossing is found on a fine grid, and refined."""
+    own, reach = ground(seed), 60.0
+    origin = (0.0, 0.0, SEABED.depth(own, 0.0, 0.0) - 5.0)
+    direction = (
+        math.cos(below) * math.cos(heading),
+        math.cos(below) * math.sin(heading),
+        math.sin(below),
+    )
+
+    def height(way):
+        north, east, depth = (o + way * part for o, part in zip(origin, direction, strict=True))
+        return SEABED.depth(own, north, east) - depth
+
+    ways = np.linspace(0.0, reach, 1201)
+    under = np.flatnonzero(np.array([height(way) for way in ways]) < 0.0)
+    met = brentq(height, ways[under[0] - 1], ways[under[0]]) if under.size else reach
+    found = SEABED.cast(own, origin, direction, reach)
+    assert found <= met + 1e-9
+    assert found >= met - 1e-3 * reach or height(found) < 0.05  # along a crest it may come near before
+
+
+@given(seed=seeds, north=st.floats(-200.0, 200.0), east=st.floats(-200.0, 200.0), course=angles)
+def test_growth_along_a_course_is_that_of_the_depth(seed, north, east, course):
+    own, step = ground(seed), 1e-3
+    way = (math.cos(course), math.sin(course))
+    depth, growth = SEABED.along(own, north, east, *way)
+    ahead, astern = (SEABED.along(own, north + s * way[0], east + s * way[1], *way) for s in (step, -step))
+    assert depth == SEABED.depth(own, north, east)
+    assert growth == pytest.approx((ahead[0] - astern[0]) / (2.0 * step), abs=1e-6)
+
+
+@pytest.mark.parametrize(("make", "middle", "last"), [(make_fan_ahead, 6, 6), (make_fan_across, 3, None)])
+def test_fans_that_see_the_ground_have_an_altimeter_in_the_plane_they_say(make, middle, last):
+    """Over level ground a beam reads the height over the sine of its angle below the horizon."""
+    level = SEABED.drawn(30.0, 0.0, 40.0, uniforms(1, WAVES * WAVE_DRAWS), 0)
+    ranges = make(7, SEABED.cast)(level, (3.0, 4.0, 20.0), quaternion_from_euler(0.0, 0.0, 1.2), 1e3)
+    bearings = ground_bearings(7) if make is make_fan_ahead else fan_bearings(7, SWATH)
+    sines = [math.sin(b) if make is make_fan_ahead else math.cos(b) for b in bearings]
+    assert ranges == pytest.approx([10.0 / sine for sine in sines])
+    assert ranges[middle] == pytest.approx(10.0)
+    pitched = make(7, SEABED.cast)(level, (3.0, 4.0, 20.0), quaternion_from_euler(0.0, 0.2, 1.2), 1e3)
+    assert pitched[middle] == pytest.approx(10.0 / math.cos(0.2))
+    if last is None:  # the fan across the way pitches as a whole
+        assert pitched == pytest.approx([one / math.cos(0.2) for one in ranges])
+    else:  # that ahead turns in its plane: bow up, each beam looks farther ahead
+        assert pitched == pytest.approx([10.0 / math.sin(b - 0.2) for b in bearings])
+
+
+@given(seed=seeds, heading=angles, pitch=st.floats(-0.5, 0.5), depth=st.floats(20.0, 29.0))
+def test_the_keel_clears_the_ground_by_its_lowest_point_and_strikes_at_the_speed_over_ground(
+    seed, heading, pitch, depth
+):
+    own, keel = ground(seed), Keel(2.0, 0.5)
+    attitude = quaternion_from_euler(0.0, pitch, heading)
+    motion = Motion((1.0, 2.0, depth), attitude, Spatial((0.0, 0.0, 0.0), (3.0, 0.0, 4.0)))
+    over = make_keel_over(SEABED.depth)(own, motion, keel)
+    places = [(1.0, 2.0, depth)] + [
+        (
+            1.0 + s * math.cos(pitch) * math.cos(heading),
+            2.0 + s * math.cos(pitch) * math.sin(heading),
+            depth - s * math.sin(pitch),
+        )
+        for s in (2.0, -2.0)
+    ]
+    heights = [SEABED.depth(own, north, east) - down for north, east, down in places]
+    assert over.altitude == pytest.approx(heights[0])
+    assert over.clearance == pytest.approx(min(heights) - 0.5)
+    assert over.impact_speed == (5.0 if over.clearance < 0.0 else 0.0)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from dq_marine.task.world.distances import (
     box_distance,
     capsule_distance,
+    line_distance,
     make_pipe_distance,
     pillar_distance,
     plane_distance,
@@ -19,6 +20,7 @@ from dq_marine.task.world.distances import (
 from dq_marine.task.world.rays import (
     make_trace,
     ray_to_box,
+    ray_to_line,
     ray_to_pillar,
     ray_to_plane,
     ray_to_sphere,
@@ -48,6 +50,7 @@ DISTANCES = {
     "sphere": lambda p: sphere_distance(p, CENTER, RADIUS),
     "plane": lambda p: plane_distance(p, NORMAL, OFFSET),
     "pillar": lambda p: pillar_distance(p, CENTER[0], CENTER[1], RADIUS),
+    "line": lambda p: line_distance(p, CENTER, NORMAL, RADIUS),
     "box": lambda p: box_distance(p, CENTER, HALF),
     "capsule": lambda p: capsule_distance(p, CORNERS[0], CORNERS[3], RADIUS),
     "pipe": to_pipe,
@@ -57,6 +60,7 @@ RAYS = {
     "sphere": lambda o, d: ray_to_sphere(o, d, CENTER, RADIUS, REACH),
     "plane": lambda o, d: ray_to_plane(o, d, NORMAL, OFFSET, REACH),
     "pillar": lambda o, d: ray_to_pillar(o, d, CENTER[0], CENTER[1], RADIUS, REACH),
+    "line": lambda o, d: ray_to_line(o, d, CENTER, NORMAL, RADIUS, REACH),
     "box": lambda o, d: ray_to_box(o, d, CENTER, HALF, REACH),
 }
 
@@ -72,6 +76,8 @@ def numpy_distances(shape, p):
         return p @ NORMAL - OFFSET
     if shape == "pillar":
         return np.linalg.norm(p[:, :2] - CENTER[:2], axis=1) - RADIUS
+    if shape == "line":
+        return np.linalg.norm(np.cross(p - CENTER, NORMAL), axis=1) - RADIUS
     q = np.abs(p - CENTER) - HALF
     return np.where((q <= 0.0).all(axis=1), q.max(axis=1), np.linalg.norm(np.maximum(q, 0.0), axis=1))
 

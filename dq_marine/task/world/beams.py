@@ -14,6 +14,15 @@ from dq_marine.algebra.vector3 import Vector3, add_scaled, scale
 FORWARD = math.pi
 """Angle of a fan that sees all that is ahead [rad]."""
 
+BOW, STARBOARD, DOWN = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+"""Unit vectors in the body frame."""
+
+SWATH = math.radians(100.0)
+"""Angle of a fan that sees the ground across the way [rad]."""
+
+HIGHEST_BEAM = math.radians(15.0)
+"""Of a fan that sees the ground ahead: how far below the bow [rad]."""
+
 NO_ECHO = 1e9
 """Error of a reading that is lost [m]: held within the reach, it reads as if nothing were there."""
 
@@ -26,30 +35,57 @@ def fan_bearings(beams: int, spread: float) -> tuple[float, ...]:
     return tuple(spread * (i / (beams - 1) - 0.5) for i in range(beams))
 
 
-def make_fan(bearings: tuple[float, ...], cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
-    """Return (world, position, attitude, reach) -> ranges of beams in the plane of bow and starboard."""
+def ground_bearings(beams: int) -> tuple[float, ...]:
+    """Return the bearings of beams that see the ground ahead, evenly down to the last, an altimeter's [rad].
+
+    They are measured from the bow downwards.
+    """
+    step = (0.5 * math.pi - HIGHEST_BEAM) / (beams - 1)
+    return tuple(HIGHEST_BEAM + step * i for i in range(beams))
+
+
+def make_fan(
+    bearings: tuple[float, ...], cast: Cast, middle: Vector3 = BOW, side: Vector3 = STARBOARD
+) -> Callable[[Any, Vector3, Quaternion, float], Any]:
+    """Return (world, position, attitude, reach) -> ranges of beams in a plane of the vehicle.
+
+    Args:
+        bearings: of the beams, from `middle` towards `side` [rad].
+        cast: what a beam meets.
+        middle: unit vector in the body frame that a bearing of 0 points along.
+        side: unit vector in the body frame, square to it, that a bearing of pi/2 points along.
+    """
     beams = _make_beams(bearings, cast)
 
     def fan(world: Any, position: Vector3, attitude: Quaternion, reach: float) -> Any:
-        ahead, starboard = rotate(attitude, (1.0, 0.0, 0.0)), rotate(attitude, (0.0, 1.0, 0.0))
-        return beams(world, position, ahead, starboard, reach)
+        return beams(world, position, rotate(attitude, middle), rotate(attitude, side), reach)
 
     return fan
+
+
+def make_fan_ahead(beams: int, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
+    """Return the fan of `make_fan` that sees the ground ahead and, by its last beam, straight down."""
+    return make_fan(ground_bearings(beams), cast, BOW, DOWN)
+
+
+def make_fan_across(beams: int, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
+    """Return the fan of `make_fan` that sees the ground across the way, from port to starboard within `SWATH`."""
+    return make_fan(fan_bearings(beams, SWATH), cast, DOWN, STARBOARD)
 
 
 def _make_beams(bearings: tuple[float, ...], cast: Cast) -> Callable[..., Any]:
     cosine, sine = math.cos(bearings[0]), math.sin(bearings[0])
 
-    def one(world: Any, position: Vector3, ahead: Vector3, starboard: Vector3, reach: float) -> Any:
-        return (cast(world, position, add_scaled(scale(cosine, ahead), sine, starboard), reach),)
+    def one(world: Any, position: Vector3, middle: Vector3, side: Vector3, reach: float) -> Any:
+        return (cast(world, position, add_scaled(scale(cosine, middle), sine, side), reach),)
 
     if len(bearings) == 1:
         return one
     rest = _make_beams(bearings[1:], cast)
 
-    def beams(world: Any, position: Vector3, ahead: Vector3, starboard: Vector3, reach: float) -> Any:
-        nearest = one(world, position, ahead, starboard, reach)
-        return (*nearest, *rest(world, position, ahead, starboard, reach))
+    def beams(world: Any, position: Vector3, middle: Vector3, side: Vector3, reach: float) -> Any:
+        nearest = one(world, position, middle, side, reach)
+        return (*nearest, *rest(world, position, middle, side, reach))
 
     return beams
 
@@ -80,10 +116,11 @@ def make_errors(beams: int, first: int = 0) -> Callable[[float, float, tuple[flo
 
 
 def make_readings(beams: int, first: int = 0) -> Callable[[Any, Any, float], Any]:
-    """Return (ranges [m], errors [m], reach [m]) -> readings as shares of the reach."""
+    """Return (ranges [m], errors [m], reach [m]) -> readings as shares of the reach: 1 where no echo comes back."""
 
     def one(ranges: Any, errors: Any, reach: float) -> Any:
-        return (max(0.0, min(1.0, (ranges[first] + errors[first]) / reach)),)
+        told = max(0.0, min(1.0, (ranges[first] + errors[first]) / reach))
+        return (select(ranges[first] < reach, told, 1.0),)
 
     if first == beams - 1:
         return one

@@ -29,6 +29,12 @@ def pillar_distance(point: Vector3, north: float, east: float, radius: float) ->
     return level_length((point[0] - north, point[1] - east)) - radius
 
 
+def line_distance(point: Vector3, on_axis: Vector3, axis: Vector3, radius: float) -> float:
+    """Return the distance to a straight pipe without ends, whose axis is a unit vector through a point."""
+    off = subtract(point, on_axis)
+    return norm(add_scaled(off, -dot(off, axis), axis)) - radius
+
+
 def box_distance(point: Vector3, center: Vector3, half_size: Vector3) -> float:
     """Return the distance to a box along the axes."""
     x = abs(point[0] - center[0]) - half_size[0]

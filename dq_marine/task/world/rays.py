@@ -1,7 +1,7 @@
 """Rays: how far it is along a unit direction to a shape [m]; the reach where there is nothing, 0 from inside.
 
-Spheres, pillars, boxes and planes have closed forms. With a ray at o + t d, a centre at distance vector m = c - o, and
-for a pillar only the level parts of d and m, the first of the two roots of
+Spheres, pillars, straight pipes, boxes and planes have closed forms. With a ray at o + t d, a centre at distance vector
+m = c - o, and of d and m only the parts across a pillar or a pipe, the first of the two roots of
 
     (d.d) t^2 - 2 (d.m) t + (m.m - r^2) = 0                                                            (1)
 
@@ -43,6 +43,18 @@ def ray_to_pillar(
     """Return the range to a vertical cylinder without ends."""
     x, y, u, v = north - origin[0], east - origin[1], direction[0], direction[1]
     return first_root(u * u + v * v, u * x + v * y, x * x + y * y - radius * radius, reach)
+
+
+def ray_to_line(
+    origin: Vector3, direction: Vector3, on_axis: Vector3, axis: Vector3, radius: float, reach: float
+) -> float:
+    """Return the range to a straight pipe without ends, whose axis is a unit vector through a point."""
+    off = subtract(on_axis, origin)
+    across, beside = (
+        add_scaled(direction, -dot(direction, axis), axis),
+        add_scaled(off, -dot(off, axis), axis),
+    )
+    return first_root(dot(across, across), dot(across, beside), dot(beside, beside) - radius * radius, reach)
 
 
 def ray_to_plane(origin: Vector3, direction: Vector3, normal: Vector3, offset: float, reach: float) -> float:

@@ -25,7 +25,7 @@ ROUTE = 0x5CFFA0
 SOLID = Look()
 HOLLOW = Look(both_sides=True)
 FAINT = Look(opacity=0.6, lit=False)
-DULL = Look(shininess=0.0, both_sides=True)
+DULL = Look(shininess=0.0)  # from above only: what casts shadows by both sides darkens itself in stripes
 
 UPRIGHT = rotation_between(Y_AXIS, (0.0, 0.0, -1.0))
 

@@ -1,0 +1,89 @@
+"""What controllers that keep an altitude over the ground have in common: they know of it what beams tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+
+from dq_marine.agents.controllers.autopilot import PITCH, YAW, Array, Attitude, Order
+from dq_marine.agents.controllers.guidance import levelled
+from dq_marine.agents.controllers.journeys import Journey
+from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
+from dq_marine.agents.controllers.profiles import Ground
+from dq_marine.agents.environments import marine
+from dq_marine.agents.preset_files import read_settings
+from dq_marine.agents.settings import AutopilotSettings, GroundSettings
+from dq_marine.algebra.vector3 import Vector3
+
+
+class GroundJourney(Journey):
+    """A journey over ground whose echoes are remembered."""
+
+    def __init__(
+        self,
+        env: gym.Env[Any, Any],
+        settings: GroundSettings | None = None,
+        autopilot: AutopilotSettings | None = None,
+    ) -> None:
+        """Prepare for an environment's vehicle; None reads the presets `over_ground` and `autopilot`."""
+        super().__init__(env, autopilot)
+        task, length = marine(env).task_settings, self._vehicle.dimensions.length
+        self._over_ground = settings or read_settings("over_ground", GroundSettings)
+        self._altitude, self._reach = task.altitude * length, task.reach * length
+        self._guidance = LineOfSight(self._pilot, self._settings)
+        self._ground = Ground(
+            self._over_ground.width * self._altitude, self._over_ground.behind * self._altitude
+        )
+
+    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
+        """Forget the episode before."""
+        super().reset(env)
+        self._guidance.reset()
+        self._ground.reset()
+
+    def _gone(self, attitude: Attitude) -> tuple[Vector3, float]:
+        """Return how far the vehicle has gone ahead, to starboard and down [m], and turned [rad], in a period."""
+        period = self._pilot.period
+        ahead, starboard, down = attitude.velocity_level
+        return (period * ahead, period * starboard, period * down), period * float(attitude.velocity_body[5])
+
+    def _echoes(self, readings: Array, beams_body: Sequence[Vector3], attitude: Attitude) -> Array:
+        """Return what beams along unit vectors have met: ahead, to starboard and below, shape (n, 3) [m]."""
+        met = readings < 1.0
+        beams = np.array([levelled(beam, attitude.roll, attitude.pitch) for beam in beams_body])
+        return np.asarray(self._reach * readings[met, None] * beams[met])
+
+    def _lead(self, speed: float) -> float:
+        """Return how far ahead the ground's slope is followed [m]."""
+        axis = YAW if self._pilot.by_heave else PITCH
+        return self._over_ground.lead * speed / self._pilot.angle_gain(axis)
+
+    def _order(
+        self,
+        attitude: Attitude,
+        speed: float,
+        way: tuple[float, float],
+        turning: float,
+        starboard: float,
+        higher: float = 0.0,
+    ) -> Order:
+        """Return the order for a path over the ground.
+
+        Args:
+            attitude: of the vehicle.
+            speed: wanted over ground [m/s].
+            way: where the path goes, ahead and to starboard, a unit vector.
+            turning: how fast its course turns to starboard at that speed [rad/s].
+            starboard: how far the vehicle is to starboard of it [m].
+            higher: by how much the path is more than the altitude over the ground [m].
+        """
+        fall, below = 0.0, 0.0
+        if not self._ground.empty:
+            lead = self._lead(speed)
+            soon = self._ground.at(lead * way[0], lead * way[1])
+            fall = soon.ahead * way[0] + soon.starboard * way[1]
+            below = self._altitude + higher - self._ground.at(0.0, 0.0).below
+        return self._guidance.order_along(attitude, speed, (*way, fall), turning, Offset(starboard, below))

@@ -1,0 +1,249 @@
+"""Pipeline inspection: follow a pipe on an uneven seabed by sonar and a detector, in an unseen current."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+from dq_marine.algebra.level import from_above
+from dq_marine.algebra.normal import normal_pair
+from dq_marine.algebra.quaternion import rotate_inverse
+from dq_marine.algebra.selection import select, spread
+from dq_marine.algebra.vector3 import bounded_vector, norm
+from dq_marine.checks import finite_number
+from dq_marine.envs.core.ground_settings import DISTURBED, QUIET, GroundSettings, ground_flight, over_ground
+from dq_marine.envs.core.suitability import paced, unable_to_dive_under_way
+from dq_marine.envs.kit import VELOCITY, EpisodeContext, Observed, define_task
+from dq_marine.integrator.body import Motion
+from dq_marine.task.common import SPEED_BOUND, observed_velocity
+from dq_marine.task.ground_flight import FlightRewards as Rewards
+from dq_marine.task.ground_flight import GroundFlight, flight_rewards
+from dq_marine.task.protocol import Situation, Start
+from dq_marine.task.scenery import along_curve, pipe_seen
+from dq_marine.task.splines import make_spline, make_winding, winding_draws
+from dq_marine.task.starts import under_way
+from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
+from dq_marine.task.world.beams import NO_ECHO, make_errors, make_fan_across, make_readings
+from dq_marine.task.world.keel import make_keel_over
+from dq_marine.task.world.pipes import LaidPipe, Sight, View, beside_pipe, detected, make_pipe, sight
+from dq_marine.task.world.seabed import WAVE_DRAWS, Ground, make_seabed
+
+WAVES, SPANS, BEAMS = 4, 4, 9  # of the seabed; of the pipe, about a leg each; the middle one is an altimeter
+depth_at, cast, ground_drawn, along = make_seabed(WAVES)
+keel_over, (laid, cast_below) = make_keel_over(depth_at), make_pipe(along, cast)
+(point_at, nearer), wind = make_spline(SPANS), make_winding(SPANS)
+fan = make_fan_across(BEAMS, cast_below)
+drawn_errors, readings = make_errors(BEAMS + 1), make_readings(BEAMS)
+EXACT = (0.0,) * (BEAMS + 1)  # errors before there are readings; with the last, the detector loses the pipe
+AHEAD, ASIDE, ANGLE = 1.0, 1.5, math.radians(60.0)  # of the bow, what the detector sees [altitudes, rad]
+START_OFF, START_TURN, START_DRAWS = 0.2, math.radians(15.0), 4  # from place [altitudes] and course [rad]
+ACQUIRED = 1.0  # span from whose beginning on errors count
+TOLERANCE, LEAST = 0.07, 0.1  # success: mean errors across and up below this [altitudes, but at least m]
+ASKEW = math.radians(5.0)  # and that of the course over ground below this [rad]
+UNITS = {"course": "rad", "impact": "m/s"}  # of metrics, else m
+LOST = 2.0  # episodes end farther than this from the pipe [altitudes]
+
+
+@dataclass(frozen=True)
+class Settings(GroundSettings):
+    """Of flight over ground (`GroundSettings`); legs and radius of the pipe [vehicle lengths], its turns [degrees]."""
+
+    altitude: float = 3.0
+    slope: float = 0.3
+    reach: float = 9.0
+    leg: float = 12.0
+    turn: float = 30.0
+    pipe_radius: float = 0.15
+
+
+def fitted(given: Settings, vehicle: Any) -> Settings:
+    """Return the settings for a vehicle, checked."""
+    return replace(
+        over_ground(given, vehicle),
+        leg=finite_number("leg", given.leg, least=1.0, most=1e3),
+        turn=finite_number("turn", given.turn, least=0.0, most=60.0),
+        pipe_radius=finite_number("pipe_radius", given.pipe_radius, above=0.0, most=0.25),
+    )
+
+
+class Parameters(NamedTuple):
+    """Flight over ground; legs [m], turns [rad] and radius [m] of the pipe; tolerance [m], bounds of the detector."""
+
+    flight: GroundFlight
+    leg: float
+    turn: float
+    radius: float
+    tolerance: float
+    ahead: float
+    widest: Sight
+
+
+class Metrics(NamedTuple):
+    """To starboard of the pipe, height over its axis less the altitude [m], course over ground off the pipe's [rad].
+
+    Means of their magnitudes since errors count; clearance of the hull [m], speed in contact, or 0 [m/s].
+    """
+
+    cross_track_error: float
+    altitude_error: float
+    course_error: float
+    mean_cross_track_error: float
+    mean_altitude_error: float
+    mean_course_error: float
+    clearance: float
+    impact_speed: float
+    share_done: float
+
+
+class Memory(NamedTuple):
+    """Seabed; control points of the pipe, seen from above [m]; what is seen of them, its errors; speed along [m/s]."""
+
+    ground: Ground
+    controls: Any
+    shown: View
+    errors: View
+    speed: float
+    tally: Tally
+    metrics: Metrics
+
+
+def parameters(settings: Any, context: EpisodeContext) -> Parameters:
+    """Return the numbers of an episode."""
+    flight, length = ground_flight(settings, context), context.vehicle.dimensions.length
+    high, tolerance = flight.altitude, max(LEAST, TOLERANCE * flight.altitude)
+    pipe = (settings.leg * length, math.radians(settings.turn), settings.pipe_radius * length)
+    return Parameters(flight, *pipe, tolerance, AHEAD * high, Sight(ASIDE * high, ANGLE))
+
+
+def world(own: Parameters, uniforms: tuple[float, ...]) -> tuple[Ground, Any]:
+    """Return the seabed and the control points of the pipe of an episode."""
+    flight, first = own.flight, START_DRAWS + winding_draws(SPANS)
+    ground = ground_drawn(flight.depth, flight.slope, flight.wave, uniforms, first)
+    return ground, wind((0.0, 0.0, 0.0), own.leg, own.turn, 0.0, uniforms, START_DRAWS)
+
+
+def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
+    """Return a start about over the pipe's beginning, under way about along it at half the speed or more."""
+    course, off = math.tau * uniforms[START_DRAWS], START_OFF * own.flight.altitude
+    aside, lower = off * (2.0 * uniforms[0] - 1.0), off * (2.0 * uniforms[1] - 1.0)
+    north, east = -aside * math.sin(course), aside * math.cos(course)
+    depth = depth_at(world(own, uniforms)[0], north, east) - own.radius - own.flight.altitude + lower
+    heading = course + START_TURN * (2.0 * uniforms[2] - 1.0)
+    return under_way((north, east, depth), heading, own.flight.speed * (0.5 + 0.5 * uniforms[3]))
+
+
+def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
+    """Return a new seabed with a pipe, and what is seen of them."""
+    ground, controls = world(own, uniforms)
+    nothing, zeros = View(EXACT, Sight(0.0, 0.0)), Metrics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    blank = Memory(ground, controls, nothing, nothing, 0.0, NOTHING_YET, zeros)
+    return update_memory(own, blank, Motion(*begun), Motion(*begun))
+
+
+def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
+    """Return the memory with new errors of the beams' readings and of the detector."""
+    flight, (aside, turned) = own.flight, normal_pair(uniforms[BEAMS + 1], uniforms[BEAMS + 2])
+    seen = Sight(flight.noise * aside, flight.noise / flight.altitude * turned)
+    errors = View(drawn_errors(flight.noise, flight.dropout, uniforms), seen)
+    return Memory(memory.ground, memory.controls, memory.shown, errors, *memory[4:])
+
+
+def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
+    """Return where the vehicle is over the seabed and along the pipe, and what is seen of them."""
+    ground, controls, flight, place = memory.ground, memory.controls, own.flight, motion.position_ned
+    parameter = nearer(controls, nearer(controls, memory.metrics.share_done * SPANS, place), place)
+    ahead = min(parameter + own.ahead / own.leg, float(SPANS))
+    here, soon = point_at(controls, parameter), point_at(controls, ahead)
+    pipe = laid(ground, from_above(here.position_ned), from_above(here.slope_ned), own.radius)
+    by, over = beside_pipe(pipe, motion, flight.keel), keel_over(ground, motion, flight.keel)
+    off, clearance = by.height - flight.altitude, min(over.clearance, by.clearance)
+    errors = (abs(by.starboard), abs(off), abs(by.askew))
+    tally = counted(memory.tally, parameter > ACQUIRED, errors, flight.period)
+    cross, high, askew = means(tally, flight.period)
+    impact = select(clearance < 0.0, norm(motion.velocity.linear), 0.0)
+    ranges = fan(LaidPipe(ground, pipe), place, motion.attitude, flight.reach)
+    seen = sight(motion, from_above(soon.position_ned), from_above(soon.slope_ned), own.ahead)
+    metrics = Metrics(by.starboard, off, by.askew, cross, high, askew, clearance, impact, parameter / SPANS)
+    return Memory(ground, controls, View(ranges, seen), memory.errors, by.speed, tally, metrics)
+
+
+def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
+    """Return what `observations` lists."""
+    (ranges, seen), errors, flight = memory.shown, memory.errors, own.flight
+    return (
+        readings(ranges, errors.ranges, flight.reach),
+        detected(seen, errors.sight, own.widest, errors.ranges[BEAMS] >= NO_ECHO),
+        spread((own.ahead, flight.altitude, own.radius), memory.speed),
+        bounded_vector(rotate_inverse(measured.attitude, (0.0, 0.0, 1.0)), 1.0),
+        observed_velocity(measured),
+        spread(flight.speed, memory.speed),
+    )
+
+
+def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
+    """Return what an observation consists of."""
+    length, high = vehicle.dimensions.length, settings.altitude * vehicle.dimensions.length
+    return (
+        Observed(
+            "sonar_readings", "", BEAMS, 1.0, "free way over the reach from port to starboard, down amid"
+        ),
+        Observed("pipe_seen", "", 1, 1.0, "1 where the detector sees the pipe; else 0, as what it tells"),
+        Observed("pipe_starboard", "m", 1, ASIDE * high, "how far to starboard of the bow the pipe is ahead"),
+        Observed("pipe_bearing", "rad", 1, ANGLE, "where it leads to there, from the bow to starboard"),
+        Observed("pipe_ahead", "m", 1, AHEAD * high, "how far ahead that is"),
+        Observed("ordered_altitude", "m", 1, high, "the height to keep over the pipe's axis"),
+        Observed("pipe_radius", "m", 1, settings.pipe_radius * length, "of the pipe"),
+        Observed("down_body", "", 3, 1.0, "where down is"),
+        *VELOCITY,
+        Observed("ordered_speed", "m/s", 1, SPEED_BOUND, "along the pipe, over ground"),
+    )
+
+
+def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
+    """Return how far off the vehicle is, and has been, and how hard it hit what is below."""
+    return memory.metrics
+
+
+def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
+    """Return the terms of the reward."""
+    metrics, pace = now.metrics, now.memory.speed / own.flight.speed
+    off = (abs(metrics.cross_track_error) + abs(metrics.altitude_error)) / own.flight.altitude
+    return flight_rewards(weights, now, pace, off, succeeded(own, now))
+
+
+def succeeded(own: Parameters, now: Situation) -> Any:
+    """Whether the end of the pipe is reached, near enough to it from the second leg on, without contact."""
+    metrics, most = now.metrics, own.tolerance
+    near = (metrics.mean_cross_track_error < most) & (metrics.mean_altitude_error < most)
+    straight, untouched = metrics.mean_course_error < ASKEW, metrics.clearance >= 0.0
+    return near & straight & untouched & (metrics.share_done >= 1.0)
+
+
+def terminated(own: Parameters, now: Situation) -> Any:
+    """Whether the end of the pipe is reached, it or the seabed is hit, or the pipe is lost."""
+    metrics, far = now.metrics, LOST * own.flight.altitude
+    lost = (abs(metrics.cross_track_error) > far) | (metrics.altitude_error > far)
+    return (metrics.share_done >= 1.0) | (metrics.clearance < 0.0) | lost
+
+
+def scenery(own: Parameters, memory: Memory) -> Any:
+    """Return the pipe and the seabed about it, for drawing."""
+    route = along_curve(lambda s: point_at(memory.controls, s).position_ned, float(SPANS))
+    return pipe_seen(depth_at, memory.ground, route, own.radius, 2.0 * own.flight.altitude)
+
+
+define_task(
+    globals(),
+    id="dq_marine/PipelineInspection-v0",
+    summary="Follow a pipe on an uneven seabed by sonar and a detector, in an unseen current.",
+    draws=START_DRAWS + winding_draws(SPANS) + WAVES * WAVE_DRAWS,
+    sense_draws=BEAMS + 3,
+    units={name: UNITS.get(name.split("_")[-2:][0], "m") for name in Metrics._fields[:-1]},
+    tolerances={"cross_track_error": LEAST, "altitude_error": LEAST},
+    levels={"easy": {"slope": 0.15, "turn": 15.0, **QUIET}, "medium": {"current": 0.2}, "hard": DISTURBED},
+    unsuitable=unable_to_dive_under_way,
+    vehicle="remus100",
+    control_period=paced,
+    max_episode_steps=2000,
+)
