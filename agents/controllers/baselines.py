@@ -8,6 +8,7 @@ import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.controllers.avoidance import AvoidanceController
+from dq_marine.agents.controllers.berthing import BerthingController
 from dq_marine.agents.controllers.docking import DockingController
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.encounters import EncounterController
@@ -55,6 +56,7 @@ class Controller(Agent, Protocol):
 
 
 CONTROLLERS: tuple[type[Controller], ...] = (
+    BerthingController,
     DockingController,
     DPController,
     PathController,
