@@ -33,7 +33,9 @@ WAITING = 0.2  # a vessel this near to where it should be is moved in [lengths]
 BRAKING, EASING = 0.3, 0.1  # shares of the thrust that (1) counts on, ahead and sideways
 SIDEWAYS = 0.08  # fastest towards the quay [cruising speed]
 TOUCH = 0.4  # of the contact speed, at last
-SLOW = 0.3  # below this the heading is led ever nearer to the quay's [cruising speed]
+HASTE = 0.7  # fastest along the quay [cruising speed]
+# Between these the course is led less and less, and then the heading alone: the bow is parallel [cruising speed].
+SLOW, SLOWEST = 0.3, 0.1
 STRAIGHT = math.radians(3.0)  # how far off the quay's it may be at last [rad]
 STEEPEST = math.radians(45.0)  # course towards the quay [rad]
 
@@ -54,19 +56,20 @@ class BerthingController(Journey):
         super().__init__(env, settings)
         vehicle, inner = self._vehicle, marine(env)
         self._length, self._cruising = vehicle.dimensions.length, cruising_speed(vehicle)
+        self._speed = HASTE * self._cruising
         self._strength = vehicle.wrench_limits / np.diag(vehicle.mass_matrix)
-        self._look_ahead = self._pilot.look_ahead(self._cruising, YAW)
         self._positioning: DPController | None = None
         if not steers_only_under_way(vehicle):
             self._positioning = DPController(
                 vehicle, inner.control_period, None, inner.scene.actuation, self._wanted
             )
         self._left: float | None = None
+        self._sideways = 0.0
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
         super().reset(env)
-        self._left = None
+        self._left, self._sideways = None, 0.0
         if self._positioning is not None:
             self._positioning.reset()
 
@@ -98,29 +101,43 @@ class BerthingController(Journey):
             way: to where the vessel is to stop: along the line, to starboard of it, down [m], shape (3,).
         """
         speed = self._slowed(float(way[0]), BRAKING * float(self._strength[SURGE]))
-        share = min(1.0, abs(speed) / (SLOW * self._cruising))
+        pace = abs(attitude.speed) / self._cruising
+        share = max(0.0, min(1.0, (pace - SLOWEST) / (SLOW - SLOWEST)))
         widest = STRAIGHT + (STEEPEST - STRAIGHT) * share
-        turned = math.atan2(float(way[1]), self._look_ahead) - attitude.drift_angle
+        turned = (
+            math.atan2(float(way[1]), self._pilot.look_ahead(self._speed, YAW)) - share * attitude.drift_angle
+        )
         heading = course + max(-widest, min(widest, turned))
         return Order(speed, speed - attitude.velocity_level[0], wrapped(heading), 0.0, 0.0)
 
     def _slowed(self, distance: float, acceleration: float) -> float:
         """Return the speed (1) [m/s], less than 0 where the berth is astern."""
         speed = math.sqrt(2.0 * acceleration * abs(distance))
-        return math.copysign(min(speed, self._cruising), distance)
+        return math.copysign(min(speed, self._speed), distance)
 
     def _wanted(self, observation: Observation) -> Reading:
         """Return the pose to hold now, which is `_left` off the berth [m], and how it moves."""
-        parts = self._read(observation)
+        parts, left = self._read(observation), self._left or 0.0
         docked, to_quay = goal_pose(*(parts[name] for name in GOAL_POSE)), parts["to_quay_body"]
-        left, speed = self._left or 0.0, 0.0
         off = docked.error_body[:3] - left * to_quay
-        if np.hypot(*off[:2]) < WAITING * self._length and left > 0.0:
-            easing = math.sqrt(2.0 * EASING * float(self._strength[SWAY]) * left)
-            touch = TOUCH * float(parts["contact_speed_limit"][0])
-            speed = min(SIDEWAYS * self._cruising, easing + touch)
-        self._left = max(0.0, left - self._pilot.period * speed)
+        kept_up = bool(np.hypot(*off[:2]) < WAITING * self._length)
+        before, self._sideways = self._sideways, self._inwards(left, kept_up, parts)
+        self._left = max(0.0, left - self._pilot.period * self._sideways)
+        hastening = (self._sideways - before) / self._pilot.period
         return docked._replace(
             error_body=np.concatenate([off, docked.error_body[3:]]),
-            goal_velocity_body=np.concatenate([speed * to_quay, np.zeros(3)]),
+            goal_velocity_body=np.concatenate([self._sideways * to_quay, np.zeros(3)]),
+            goal_acceleration_body=np.concatenate([hastening * to_quay, np.zeros(3)]),
+        )
+
+    def _inwards(self, left: float, kept_up: bool, parts: dict[str, Array]) -> float:
+        """Return how fast the pose is moved towards the quay [m/s], which is `left` away [m]: (1), in and out."""
+        if not kept_up or left == 0.0:
+            return 0.0
+        easing = EASING * float(self._strength[SWAY])
+        touch = TOUCH * float(parts["contact_speed_limit"][0])
+        return min(
+            SIDEWAYS * self._cruising,
+            self._sideways + easing * self._pilot.period,
+            math.sqrt(2.0 * easing * left) + touch,
         )

@@ -1,8 +1,9 @@
 """Berths at a quay, between piers: how a hull lies before the walls, and what comes of its coming alongside.
 
-All is seen from above, along the axes of the berth: x ahead of a moored vessel, y away from the quay. The quay's fenders
-are at y = 0, however far along it; piers stand out from it on both sides, alike. Of two convex outlines that are apart,
-the least distance is at a corner of one of them, so that the hull's corners and the piers' are all that is looked at.
+All is seen from above, along the axes of the berth: x ahead of a moored vessel, y away from the quay. The quay's
+fenders are at y = 0, however far along it; piers stand out from it on both sides, alike. Of two convex outlines that
+are apart, the least distance is at a corner of one of them, so that the hull's corners and the piers' are all that is
+looked at. Fenders do not push back: a hull that touches them slowly may press them in for so far as they give.
 
 How fast ships may come to fenders is from W. Brolsma's curves (PIANC 2002, Guidelines for the Design of Fender Systems,
 sec. 4.2.3): up to 0.2 m/s and less for large ones, about with the inverse of the length, but hardly below 0.1 m/s.
@@ -10,9 +11,10 @@ sec. 4.2.3): up to 0.2 m/s and less for large ones, about with the inverse of th
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
-from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, seen_at
+from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, level_length, seen_at
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import norm
@@ -78,16 +80,29 @@ class Box(NamedTuple):
     speed: float
 
 
+class Limits(NamedTuple):
+    """Of contact: with which speed a hull may close with a wall that it touches [m/s], how far fenders give [m]."""
+
+    speed: float
+    give: float
+
+
 class Berthing(NamedTuple):
     """What came of coming alongside.
 
     Attributes:
+        distance: from the berth [m].
+        along: the part of it along the quay [m].
+        angle: of the bow and the quay [rad].
         clearance: of the hull from the nearest wall [m]; less than 0 where it presses the fenders.
         alongside: for how long it has been in its box [s].
         struck: 1 where it has hit a wall, else 0.
         impact_speed: with which the hull has closed with a wall that it touches [m/s], or 0.
     """
 
+    distance: float
+    along: float
+    angle: float
     clearance: float
     alongside: float
     struck: float
@@ -97,6 +112,12 @@ class Berthing(NamedTuple):
 def contact_speed_of(length: float, cruising: float) -> float:
     """Return how fast a vessel may touch fenders [m/s]: see above; of small ones, a tenth of the cruising speed."""
     return min(max(SLOWEST, FASTEST * min(1.0, AT_LENGTH / length)), 0.1 * cruising)
+
+
+def drawn_berth(uniforms: tuple[float, ...], first: int) -> Berth:
+    """Return a berth at any heading, with the quay on either side, by two uniform random numbers from `first` on."""
+    course = math.tau * uniforms[first]
+    return Berth(math.cos(course), math.sin(course), 1.0 if uniforms[first + 1] < 0.5 else -1.0)
 
 
 def abeam(harbour: Harbour) -> float:
@@ -160,13 +181,23 @@ def _corner(harbour: Harbour, own: Alongside, ahead: float, aside: float) -> flo
     )
 
 
+def room_left(harbour: Harbour, berth: Berth, motion: Motion) -> float:
+    """Return how far a vessel is from the nearest wall [m]; less than 0 where it presses the fenders."""
+    return clearance(harbour, before_berth(harbour, berth, motion))
+
+
+def first_berthing(harbour: Harbour, berth: Berth, motion: Motion) -> Berthing:
+    """Return that nothing has come of it yet."""
+    return berthing_seen(harbour, before_berth(harbour, berth, motion), 0.0, 0.0, 0.0)
+
+
 def berthing_kept(
     harbour: Harbour,
     box: Box,
-    contact_speed: float,
-    give: float,
+    limits: Limits,
+    berth: Berth,
     before: Berthing,
-    own: Alongside,
+    motion: Motion,
     period: float,
 ) -> Berthing:
     """Return what came of a control period.
@@ -174,21 +205,26 @@ def berthing_kept(
     Args:
         harbour: where the walls are.
         box: within which a vessel is alongside.
-        contact_speed: with which the hull may close with a wall that it touches [m/s].
-        give: how far fenders can be pressed in [m].
-        before: what had come of those before.
-        own: the vessel at its end.
+        limits: of contact with walls.
+        berth: where the vessel is to lie.
+        before: what had come of the periods before.
+        motion: of the vessel at the end of this one.
         period: how long it was [s].
     """
+    own = before_berth(harbour, berth, motion)
     room = clearance(harbour, own)
-    closing = max((before.clearance - room) / period, 0.0)
-    impact = select(room < 0.0, closing, 0.0)
-    struck = (impact > contact_speed) | (room < -give)
+    impact = select(room < 0.0, max((before.clearance - room) / period, 0.0), 0.0)
+    struck = (impact > limits.speed) | (room < -limits.give)
     inside = (abs(own.place[0]) < box.along) & (room < box.clearance) & (own.speed < box.speed)
     there = inside & (abs(own.off_parallel) < box.angle)
-    return Berthing(
-        room,
-        select(there, before.alongside + period, 0.0),
-        select(struck, 1.0, before.struck),
-        impact,
-    )
+    held = select(there, before.alongside + period, 0.0)
+    return berthing_seen(harbour, own, held, select(struck, 1.0, before.struck), impact)
+
+
+def berthing_seen(
+    harbour: Harbour, own: Alongside, alongside: float, struck: float, impact_speed: float
+) -> Berthing:
+    """Return what came of coming alongside, with where the vessel is."""
+    along, aside = own.place[0], own.place[1] - abeam(harbour)
+    distance, room = level_length((along, aside)), clearance(harbour, own)
+    return Berthing(distance, abs(along), abs(own.off_parallel), room, alongside, struck, impact_speed)

@@ -21,6 +21,11 @@ STANDARD_GRAVITY = 9.81
 """For the periods of waves [m/s^2]."""
 
 
+def disturbed(current: float, wind: float) -> dict[str, ForVehicle]:
+    """Return the keywords of a level with a current and a wind, as shares of the cruising speed."""
+    return {"current": current_for(current), "weather": wind_for(wind)}
+
+
 def current_for(share: float) -> ForVehicle:
     """Return a current to draw, of at most a share of the cruising speed."""
     return ForVehicle(lambda vehicle: share * cruising_speed(vehicle), f"{share:g} of the cruising speed")

@@ -13,6 +13,9 @@ SURGE, SWAY, HEAVE, PITCH, YAW = 0, 1, 2, 4, 5
 CRUISE = 0.6
 """Speed of journeys over the largest."""
 
+CREEP = 0.05
+"""Speed at which a vehicle has to be able to slow down yet, to stop where it should, over that of journeys."""
+
 PERIODS_A_LENGTH = 15.0
 """Control periods in which a vehicle at full speed goes its own length, where these are longer than the shortest."""
 
@@ -86,6 +89,22 @@ def unable_to_sail(vehicle: Vehicle) -> str | None:
     if vehicle.hydrostatics is None:
         return "the task is for vessels that float"
     return unable_to_travel(vehicle)
+
+
+def unable_to_berth(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle is no vessel that comes to a place at the surface and stops there; None if it is."""
+    from dq_marine.vehicles.analysis.sheet import drag_of  # here: `import dq_marine` stays light
+
+    if reason := unable_to_sail(vehicle):
+        return reason
+    slow = CREEP * cruising_speed(vehicle)
+    drag, astern = drag_of(vehicle, SURGE)(slow), float(vehicle.wrench_limits[SURGE])
+    if astern + drag > 0.0:
+        return None
+    return (
+        f"the task is to stop, and the vehicle's model has a propeller in it that is still driving it ahead with "
+        f"{-drag:.3g} N at {slow:.2g} m/s, against {astern:.3g} N astern"
+    )
 
 
 def unable_to_dive_under_way(vehicle: Vehicle) -> str | None:

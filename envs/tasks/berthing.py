@@ -6,14 +6,13 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.level import level_length
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
-from dq_marine.algebra.vector3 import bounded, bounded_vector, scale
+from dq_marine.algebra.vector3 import bounded, bounded_vector, scale, subtract
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.places import starting_depth
-from dq_marine.envs.core.proportion import current_for, wind_for
-from dq_marine.envs.core.suitability import cruising_speed, paced, steers_only_under_way, unable_to_sail
+from dq_marine.envs.core.proportion import disturbed
+from dq_marine.envs.core.suitability import cruising_speed, paced, steers_only_under_way, unable_to_berth
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, ForVehicle, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
 from dq_marine.task.berths import (
@@ -21,11 +20,13 @@ from dq_marine.task.berths import (
     Berthing,
     Box,
     Harbour,
-    before_berth,
+    Limits,
     berthing_kept,
-    clearance,
     contact_speed_of,
+    drawn_berth,
+    first_berthing,
     from_berth,
+    room_left,
 )
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
@@ -40,10 +41,7 @@ DRIFTING = 0.05  # speed of those that cannot be moved sideways, if more than th
 GIVE, THICKNESS = 0.02, 0.25  # how far fenders can be pressed in; thickness of piers [lengths]
 NEAREST = (0.58, 0.4)  # starts: from these shares of distance and offing on
 START_TURN, START_DRAWS = math.radians(15.0), 6  # heading of starts, off the quay's [rad]
-PIERS = ForVehicle(
-    lambda vehicle: 0.0 if steers_only_under_way(vehicle) else 1.0,
-    "1 for vessels that can be moved sideways, else 0",
-)
+PIERS = ForVehicle(lambda one: 0.0 if steers_only_under_way(one) else 1.0, "1, but 0 if nothing drives sway")
 LOST = 2.0  # episodes end beyond this distance from the berth [of the farthest start's]
 
 
@@ -65,22 +63,18 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
     usual = contact_speed_of(vehicle.dimensions.length, cruising_speed(vehicle))
     contact = usual if given.contact_speed is None else given.contact_speed
-    offing = finite_number("offing", given.offing, least=2.0, most=1e2)
     return replace(
         given,
         distance=finite_number("distance", given.distance, least=5.0, most=1e3),
-        offing=offing,
-        pier=finite_number("pier", given.pier, least=0.0, most=0.4 * offing),
+        offing=finite_number("offing", given.offing, least=3.0, most=1e2),
+        pier=finite_number("pier", given.pier, least=0.0, most=1.0),
         basin=finite_number("basin", given.basin, least=1.0, most=1e2),
         contact_speed=finite_number("contact_speed", contact, above=0.0, most=SPEED_BOUND),
     )
 
 
 class Parameters(NamedTuple):
-    """Farthest starts along and off [m], speed of starts [m/s], depth [m]; walls, box, contact speed [m/s].
-
-    Also how far fenders give [m], for how long to be alongside, and the control period [s].
-    """
+    """Farthest starts along and off [m], their speed [m/s], depth [m]; walls, box, limits; time in it, period [s]."""
 
     distance: float
     offing: float
@@ -88,8 +82,7 @@ class Parameters(NamedTuple):
     depth: float
     harbour: Harbour
     box: Box
-    contact_speed: float
-    give: float
+    limits: Limits
     held: float
     period: float
 
@@ -102,8 +95,9 @@ class Memory(NamedTuple):
 
 
 class Metrics(NamedTuple):
-    """Distance from the berth along the quay, clearance from walls [m], angle to it [rad], speed of impact [m/s]."""
+    """Distance from the berth, that along the quay, clearance from walls [m], angle [rad], speed of impact [m/s]."""
 
+    distance: float
     along_error: float
     clearance: float
     heading_error: float
@@ -123,89 +117,67 @@ class Rewards(NamedTuple):
 
 def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
-    vehicle, length = context.vehicle, context.vehicle.dimensions.length
-    adrift, cruising, contact = steers_only_under_way(vehicle), cruising_speed(vehicle), settings.contact_speed
-    along, across = WIDE_BOX if adrift else BOX
-    hull = Hull(0.5 * length, 0.5 * vehicle.dimensions.width)
+    vehicle, length, contact = context.vehicle, context.vehicle.dimensions.length, settings.contact_speed
+    cruising, steers = cruising_speed(vehicle), steers_only_under_way(vehicle)
+    along, across = WIDE_BOX if steers else BOX
+    slow = max(contact, DRIFTING * cruising) if steers else contact
+    hull, clear = Hull(0.5 * length, 0.5 * vehicle.dimensions.width), 0.5 * across * length
     return Parameters(
         length * settings.distance,
         length * settings.offing,
         cruising,
         starting_depth(vehicle, 0.0),
-        Harbour(
-            hull, 0.5 * across * length, length * settings.pier, length * settings.basin, length * THICKNESS
-        ),
-        Box(
-            along * length,
-            across * length,
-            PARALLEL,
-            max(contact, DRIFTING * cruising) if adrift else contact,
-        ),
-        contact,
-        GIVE * length,
+        Harbour(hull, clear, length * settings.pier, length * settings.basin, length * THICKNESS),
+        Box(along * length, across * length, PARALLEL, slow),
+        Limits(contact, GIVE * length),
         HELD * context.control_period,
         context.control_period,
     )
 
 
-def berth_drawn(uniforms: tuple[float, ...]) -> Berth:
-    """Return a berth at any heading, with the quay on either side."""
-    course = math.tau * uniforms[0]
-    return Berth(math.cos(course), math.sin(course), 1.0 if uniforms[1] < 0.5 else -1.0)
-
-
 def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     """Return a start astern of the berth and off the quay, under way about along it at half the speed or more."""
-    berth, (first, least) = berth_drawn(uniforms), NEAREST
-    along = -own.distance * (first + (1.0 - first) * uniforms[2])
-    off = own.offing * (least + (1.0 - least) * uniforms[3])
-    north, east = from_berth(own.harbour, berth, along, off)
+    along = -own.distance * (NEAREST[0] + (1.0 - NEAREST[0]) * uniforms[2])
+    off = own.offing * (NEAREST[1] + (1.0 - NEAREST[1]) * uniforms[3])
+    north, east = from_berth(own.harbour, drawn_berth(uniforms, 0), along, off)
     heading = math.tau * uniforms[0] + START_TURN * (2.0 * uniforms[4] - 1.0)
     return under_way((north, east, own.depth), heading, own.speed * (0.5 + 0.5 * uniforms[5]))
 
 
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
     """Return the berth, and that nothing has come of it yet."""
-    berth = berth_drawn(uniforms)
-    room = clearance(own.harbour, before_berth(own.harbour, berth, Motion(*begun)))
-    return Memory(berth, Berthing(room, 0.0, 0.0, 0.0))
+    berth = drawn_berth(uniforms, 0)
+    return Memory(berth, first_berthing(own.harbour, berth, Motion(*begun)))
 
 
 def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
     """Return what came of a control period."""
-    here = before_berth(own.harbour, memory.berth, motion)
-    kept = berthing_kept(
-        own.harbour, own.box, own.contact_speed, own.give, memory.berthing, here, own.period
-    )
-    return Memory(memory.berth, kept)
+    berth, before = memory.berth, memory.berthing
+    return Memory(berth, berthing_kept(own.harbour, own.box, own.limits, berth, before, motion, own.period))
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
     """Return what `observations` lists."""
     attitude, (north, east, side) = measured.attitude, memory.berth
-    here = before_berth(own.harbour, memory.berth, measured)
-    far, ahead = 2.0 * LOST * own.distance, (north, east, 0.0)
-    place = measured.position_ned
+    far, starboard = 2.0 * LOST * own.distance, (-east, north, 0.0)
+    to_berth = subtract((0.0, 0.0, own.depth), measured.position_ned)
     return (
-        bounded_vector(
-            rotate_inverse(attitude, (-place[0], -place[1], own.depth - place[2])), far
-        ),
-        rotate_inverse(attitude, ahead),
-        rotate_inverse(attitude, (-east, north, 0.0)),
+        bounded_vector(rotate_inverse(attitude, to_berth), far),
+        rotate_inverse(attitude, (north, east, 0.0)),
+        rotate_inverse(attitude, starboard),
         observed_velocity(measured),
         rotate_inverse(attitude, (0.0, 0.0, 1.0)),
-        rotate_inverse(attitude, scale(side, (-east, north, 0.0))),
-        bounded(clearance(own.harbour, here), far),
+        rotate_inverse(attitude, scale(side, starboard)),
+        bounded(room_left(own.harbour, memory.berth, measured), far),
         spread(own.harbour.pier, north),
         spread(own.harbour.basin, north),
-        spread(own.contact_speed, north),
+        spread(own.limits.speed, north),
     )
 
 
 def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     """Return what an observation consists of: all in the body frame."""
-    length = vehicle.dimensions.length
-    far = 2.0 * LOST * length * settings.distance
+    length, far = vehicle.dimensions.length, 2.0 * LOST * vehicle.dimensions.length * settings.distance
     return (
         Observed("goal_position_body", "m", 3, far, "where the vessel's origin is when moored"),
         Observed("goal_x_axis_body", "", 3, 1.0, "where its bow points then"),
@@ -216,27 +188,22 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
         Observed("wall_clearance", "m", 1, far, "how far the hull is from the nearest wall"),
         Observed("pier_length", "m", 1, 1e2 * length, "how far piers stand out from the quay; 0 for none"),
         Observed("half_basin", "m", 1, 1e2 * length, "from the middle of the berth to either pier"),
-        Observed("contact_speed_limit", "m/s", 1, SPEED_BOUND, "how fast the hull may touch the fenders"),
+        Observed("contact_speed_limit", "m/s", 1, SPEED_BOUND, "how fast it may touch the fenders"),
     )
 
 
 def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
     """Return how far and how well the vessel is before its berth."""
-    here = before_berth(own.harbour, memory.berth, motion)
-    berthing = memory.berthing
-    return Metrics(
-        abs(here.place[0]), berthing.clearance, abs(here.off_parallel), berthing.impact_speed
-    )
+    came = memory.berthing
+    return Metrics(came.distance, came.along, came.clearance, came.angle, came.impact_speed)
 
 
 def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
-    off = before_berth(own.harbour, now.memory.berth, now.motion).place
-    along, aside = off[0], off[1] - own.harbour.hull.half_beam - own.harbour.clearance
-    distance, turned = level_length((along, aside)), now.metrics.heading_error / PARALLEL
+    near, turned = now.metrics.distance, now.metrics.heading_error / PARALLEL
     return Rewards(
-        nearness=weights.nearness * math.exp(-distance / (0.5 * own.distance)),
-        precision=weights.precision * math.exp(-distance / own.harbour.hull.half_length),
+        nearness=weights.nearness * math.exp(-near / (0.5 * own.distance)),
+        precision=weights.precision * math.exp(-near / own.harbour.hull.half_length),
         heading=weights.heading * math.exp(-turned * turned),
         berthed=weights.berthed * select(succeeded(own, now), 1.0, 0.0),
         struck=-(weights.struck * now.memory.berthing.struck),
@@ -246,8 +213,7 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
 
 def terminated(own: Parameters, now: Situation) -> Any:
     """Whether the vessel is berthed, has struck a wall, or is lost."""
-    place = now.motion.position_ned
-    lost = level_length((place[0], place[1])) > LOST * own.distance
+    lost = now.metrics.distance > LOST * own.distance
     return succeeded(own, now) | (now.memory.berthing.struck > 0.5) | lost
 
 
@@ -268,13 +234,13 @@ define_task(
     summary="Come alongside a quay without tugs, slowly enough for its fenders, in an unseen current and wind.",
     draws=START_DRAWS,
     scenery=lambda own, memory: harbour_seen(own.harbour, memory.berth),
-    units={"along_error": "m", "clearance": "m", "heading_error": "rad", "impact_speed": "m/s"},
+    units=dict.fromkeys(Metrics._fields, "m") | {"heading_error": "rad", "impact_speed": "m/s"},
     levels={
         "easy": {"current": 0.0, "weather": []},
-        "medium": {"current": current_for(0.03), "weather": wind_for(1.0)},
-        "hard": {"current": current_for(0.05), "weather": wind_for(1.5), "pier": PIERS, "randomise": "default"},
+        "medium": disturbed(0.03, 1.0),
+        "hard": {**disturbed(0.05, 1.5), "pier": PIERS, "randomise": "default"},
     },
-    unsuitable=unable_to_sail,
+    unsuitable=unable_to_berth,
     vehicle="osv83",
     control_period=paced,
     max_episode_steps=2500,
