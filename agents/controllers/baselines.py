@@ -14,6 +14,7 @@ from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.encounters import EncounterController
 from dq_marine.agents.controllers.journeys import DepthHeadingController, PathController, WaypointController
 from dq_marine.agents.controllers.reading import shown_names
+from dq_marine.agents.controllers.tracking import TrackingController
 from dq_marine.agents.environments import marine
 from dq_marine.checks import one_of
 from dq_marine.envs.core.marine_env import Action
@@ -58,6 +59,7 @@ class Controller(Agent, Protocol):
 CONTROLLERS: tuple[type[Controller], ...] = (
     BerthingController,
     DockingController,
+    TrackingController,
     DPController,
     PathController,
     WaypointController,

@@ -9,6 +9,7 @@ period, 2 pi / w with w^2 = g k in deep water (Fossen 2021, Handbook of Marine C
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from dq_marine.envs.core.definition import ForVehicle
@@ -29,6 +30,20 @@ def disturbed(current: float, wind: float) -> dict[str, ForVehicle]:
 def current_for(share: float) -> ForVehicle:
     """Return a current to draw, of at most a share of the cruising speed."""
     return ForVehicle(lambda vehicle: share * cruising_speed(vehicle), f"{share:g} of the cruising speed")
+
+
+def current_or(usual: float, slight: Callable[[Vehicle], bool], share: float) -> ForVehicle:
+    """Return a current of a speed [m/s], and of at most a share of the cruising speed for vehicles that are told by it.
+
+    Args:
+        usual: for all others.
+        slight: (vehicle) -> whether it is one of those.
+        share: of the cruising speed.
+    """
+    return ForVehicle(
+        lambda vehicle: share * cruising_speed(vehicle) if slight(vehicle) else usual,
+        f"{usual:g}, or {share:g} of the cruising speed of vehicles that only steer",
+    )
 
 
 def wind_for(share: float) -> ForVehicle:
