@@ -1,9 +1,11 @@
 """Currents, winds and seas in proportion to a vehicle, for the levels of tasks that suit small and large ones.
 
-A speed is a share of the cruising speed. A wave's height and length are shares of the vehicle's length L, so that its
-period, 2 pi / w with w^2 = g k in deep water (Fossen 2021, Handbook of Marine Craft, eq. 10.65), is that of
+A speed is a share of the cruising speed. A sea's significant height is a share of the vessel's length, and at the peak
+its waves are as long as the vessel, or as five of its beams: shorter ones are not what forces by long waves are good
+for. By the dispersion of deep water, w^2 = g k (Faltinsen 1990, Sea Loads on Ships and Offshore Structures, ch. 2),
+waves of a length have the period
 
-    T = sqrt(2 pi (wave length / L) L / g).                                                            (1)
+    T = sqrt(2 pi length / g).                                                                         (1)
 """
 
 from __future__ import annotations
@@ -18,8 +20,8 @@ from dq_marine.envs.core.suitability import cruising_speed
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
 
-STANDARD_GRAVITY = 9.81
-"""For the periods of waves [m/s^2]."""
+BEAMS = 5.0
+"""Least length of waves at the peak of a sea, over the beam."""
 
 
 def disturbed(current: float, wind: float) -> dict[str, ForVehicle]:
@@ -51,6 +53,27 @@ def wind_for(share: float) -> ForVehicle:
     return ForVehicle(
         lambda vehicle: [_wind(share, vehicle)], f"a gusty wind of {share:g} of the cruising speed"
     )
+
+
+def sea_for(share: float) -> ForVehicle:
+    """Return the weather of a sea as high as a share of the vessel's length, with its slow drift; none under water."""
+    return ForVehicle(
+        lambda vehicle: [_sea(share, vehicle)] if vehicle.hydrostatics is not None else [],
+        f"for vessels that float, a sea of {share:g} of the length, its waves about as long as the vessel",
+    )
+
+
+def _sea(share: float, vehicle: Vehicle) -> dict[str, Any]:
+    size = vehicle.dimensions
+    longest = max(size.length, BEAMS * size.width)
+    period = math.sqrt(math.tau * longest / vehicle.gravity)  # (1)
+    return {
+        "kind": "sea",
+        "height": share * size.length,
+        "period": period,
+        "direction": math.pi,
+        "slow_drift": True,
+    }
 
 
 def _wind(share: float, vehicle: Vehicle) -> dict[str, Any]:
