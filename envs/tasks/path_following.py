@@ -237,7 +237,7 @@ define_task(
         "easy": {"turn": 20.0, "climb": 4.0, "current": 0.0},
         "medium": {"current": 0.3},
         "hard": {"turn": 45.0, "climb": 12.0, "current": 0.4, "randomise": "default", "sensors": "auv"},
-        "waves": {"current": 0.3, "weather": sea_for(0.015)},
+        "waves": {"current": 0.3, "weather": sea_for(0.0075)},
     },
     unsuitable=unable_to_travel,
     vehicle="remus100",
