@@ -28,7 +28,7 @@ from dq_marine.algebra.vector3 import (
     subtract,
 )
 from dq_marine.checks import finite_array, finite_number, one_of
-from dq_marine.envs.core.definition import EpisodeContext, Goal, Observed, goal_along
+from dq_marine.envs.core.definition import EpisodeContext, ForVehicle, Goal, Observed, goal_along
 from dq_marine.envs.core.module_task import define_task
 from dq_marine.envs.core.observed import GOAL_MOTION, VELOCITY
 from dq_marine.envs.core.places import goal_place
@@ -37,6 +37,7 @@ from dq_marine.envs.core.suitability import (
     paced,
     speed_ahead,
     too_slow,
+    unable_to_berth,
     unable_to_dive_under_way,
     unable_to_hold_a_pose,
     unable_to_keep_up,
@@ -65,6 +66,7 @@ __all__ = [
     "Curve",
     "CurvePoint",
     "EpisodeContext",
+    "ForVehicle",
     "Goal",
     "Motion",
     "Observed",
@@ -116,6 +118,7 @@ __all__ = [
     "subtract",
     "symmetric3",
     "too_slow",
+    "unable_to_berth",
     "unable_to_dive_under_way",
     "unable_to_hold_a_pose",
     "unable_to_keep_up",

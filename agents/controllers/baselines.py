@@ -8,6 +8,7 @@ import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.controllers.avoidance import AvoidanceController
+from dq_marine.agents.controllers.berthing import BerthingController
 from dq_marine.agents.controllers.docking import DockingController
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.encounters import EncounterController
@@ -15,6 +16,7 @@ from dq_marine.agents.controllers.journeys import DepthHeadingController, PathCo
 from dq_marine.agents.controllers.pipelines import PipelineController
 from dq_marine.agents.controllers.reading import shown_names
 from dq_marine.agents.controllers.terrain import TerrainController
+from dq_marine.agents.controllers.tracking import TrackingController
 from dq_marine.agents.environments import marine
 from dq_marine.checks import one_of
 from dq_marine.envs.core.marine_env import Action
@@ -57,7 +59,9 @@ class Controller(Agent, Protocol):
 
 
 CONTROLLERS: tuple[type[Controller], ...] = (
+    BerthingController,
     DockingController,
+    TrackingController,
     DPController,
     PathController,
     WaypointController,

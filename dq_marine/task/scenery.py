@@ -9,14 +9,18 @@ from typing import Any
 from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.level import Level, from_above
 from dq_marine.algebra.vector3 import Vector3
+from dq_marine.task.berths import Berth, Harbour, from_berth
 from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
-from dq_marine.task.things import Column, Cone, Line, Relief, ShipHull, Thing, Tube
+from dq_marine.task.things import Block, Column, Cone, Line, Relief, ShipHull, Thing, Tube
 from dq_marine.task.traffic import OtherVessel
 from dq_marine.task.world.pillars import Pillar
 
 BEAM = 0.16
 """Of other vessels, over their length, which alone is known of them."""
+
+QUAY_LENGTH, QUAY_WIDTH, QUAY_HEIGHT, QUAY_DEPTH = 14.0, 1.0, 0.06, 0.25
+"""Of what is drawn of a quay, over the length of the vessel: along it, across, above the water and below."""
 
 TURNS = 3.0
 """Of a curve of harmonics: a helix goes on."""
@@ -56,6 +60,25 @@ def dock_seen(dock: Dock, funnel: Funnel) -> list[Thing]:
     heading = math.atan2(dock.east, dock.north)
     place = (0.0, 0.0, heave_of(dock)[0])
     return [Thing(Cone(funnel.throat, mouth, funnel.length), place, quaternion_from_euler(0.0, 0.0, heading))]
+
+
+def harbour_seen(harbour: Harbour, berth: Berth) -> list[Thing]:
+    """Return a quay, as far as it is drawn, and the piers that stand out from it."""
+    length, heading = 2.0 * harbour.hull.half_length, math.atan2(berth.east, berth.north)
+    high, half_width = length * (QUAY_HEIGHT + QUAY_DEPTH), 0.5 * QUAY_WIDTH * length
+    along = harbour.basin + 0.5 * harbour.thickness
+    blocks = [((0.0, -half_width), (QUAY_LENGTH * length, 2.0 * half_width))]
+    if harbour.pier > 0.0:
+        size = (harbour.thickness, harbour.pier)
+        blocks += [((side * along, 0.5 * harbour.pier), size) for side in (-1.0, 1.0)]
+    return [
+        Thing(
+            Block(*size, high),
+            (*from_berth(harbour, berth, *place), 0.5 * high - QUAY_HEIGHT * length),
+            quaternion_from_euler(0.0, 0.0, heading),
+        )
+        for place, size in blocks
+    ]
 
 
 def harmonics_seen(curve: Curve, thickness: float) -> list[Thing]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 
 from dq_marine.algebra.euler import quaternion_from_euler
+from dq_marine.algebra.level import Level, level_length, level_turned
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, multiply_elementwise, scale
 from dq_marine.task.protocol import Start
@@ -53,6 +54,30 @@ def under_way(position_ned: Vector3, heading: float, speed: float) -> Start:
     """Return a start at a place [m] that goes straight ahead on the level: heading [rad], speed over ground [m/s]."""
     attitude = quaternion_from_euler(0.0, 0.0, heading)
     return Start(position_ned, attitude, Spatial((0.0, 0.0, 0.0), (speed, 0.0, 0.0)))
+
+
+def beside_start(
+    center_ned: Vector3,
+    radius: float,
+    velocity_ned: Level,
+    turn: float,
+    uniforms: tuple[float, ...],
+    first: int,
+) -> Start:
+    """Return a start in a disc that goes about as fast and about where a velocity leads, on the level.
+
+    Args:
+        center_ned: of the disc [m].
+        radius: of the disc [m].
+        velocity_ned: north and east [m/s].
+        turn: largest angle of heading and velocity [rad].
+        uniforms: random numbers in [0, 1), of which three from `first` on are used.
+        first: see `uniforms`.
+    """
+    bearing, distance = math.tau * uniforms[first], radius * math.sqrt(uniforms[first + 1])
+    north, east = level_turned((distance, 0.0), bearing)
+    heading = math.atan2(velocity_ned[1], velocity_ned[0]) + turn * (2.0 * uniforms[first + 2] - 1.0)
+    return under_way(add(center_ned, (north, east, 0.0)), heading, level_length(velocity_ned))
 
 
 def symmetric3(uniforms: tuple[float, ...], first: int) -> Vector3:

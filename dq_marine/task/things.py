@@ -35,6 +35,14 @@ class Cone(NamedTuple):
     length: float
 
 
+class Block(NamedTuple):
+    """A wall, as a box about its middle: sizes along x, y and z [m]."""
+
+    along_x: float
+    along_y: float
+    along_z: float
+
+
 class Line(NamedTuple):
     """What is to be followed, through points [m], at least two; and how thick it is drawn, as a radius [m]."""
 
@@ -57,7 +65,7 @@ class Relief(NamedTuple):
     depths: tuple[float, ...]
 
 
-Form = Column | ShipHull | Cone | Line | Tube | Relief
+Form = Column | ShipHull | Cone | Block | Line | Tube | Relief
 
 
 class Thing(NamedTuple):

@@ -65,6 +65,22 @@ def goal_along(position_ned: Vector3, direction_ned: Vector3) -> Goal:
     return Goal(position_ned, quaternion_from_euler(0.0, 0.0, heading))
 
 
+class ForVehicle(NamedTuple):
+    """A value of a level that is in proportion to the vehicle.
+
+    Attributes:
+        value: (vehicle) -> the value.
+        meaning: one line for people, such as "0.05 of the cruising speed".
+    """
+
+    value: Callable[[Vehicle], Any]
+    meaning: str
+
+    def __repr__(self) -> str:
+        """Return what it means, in brackets: it stands where a plain value would."""
+        return f"({self.meaning})"
+
+
 class EpisodeContext(NamedTuple):
     """What a task's parameters may depend on besides its own settings.
 
@@ -129,7 +145,8 @@ class TaskDefinition:
             of a task with nothing to hit.
         goal_reward: (parameters, weights, achieved goal, desired goal) -> the term `goal` of the reward, with its
             weight, of a task whose observation has goals among its parts: for `compute_reward` and hindsight replay.
-        levels: of difficulty, by name, the easiest first: keywords of the task and of `dq_marine.Settings`.
+        levels: of difficulty, by name, the easiest first: keywords of the task and of `dq_marine.Settings`, each with
+            its value, or with a `ForVehicle` that has one for every vehicle.
         unsuitable: (vehicle) -> why the task cannot be done with it; None where it can.
         surroundings: defaults of other keywords of `dq_marine.Settings`, by name, where the task has its own.
         vehicle: the default one.
@@ -190,6 +207,8 @@ class TaskDefinition:
     def at_level(self, level: str | None, given: Mapping[str, Any]) -> dict[str, Any]:
         """Return keywords, with those of a level of difficulty for what is not given; None is no level.
 
+        What a level has in proportion to the vehicle follows the vehicle that is given, or else the default one.
+
         Raises:
             InvalidInputError: the task has no such level.
         """
@@ -197,7 +216,16 @@ class TaskDefinition:
             return dict(given)
         if not self.levels:
             raise InvalidInputError(f"level = {shown(level)}, and {self.id} has no levels; leave it out")
-        return {**self.levels[one_of("level", level, self.levels)], **given}
+        said = self.levels[one_of("level", level, self.levels)]
+        return {**{name: self._fitting(value, given) for name, value in said.items()}, **given}
+
+    def _fitting(self, value: Any, given: Mapping[str, Any]) -> Any:
+        """Return a level's value for the vehicle that is given."""
+        from dq_marine.vehicles import load_vehicle  # here: `import dq_marine` stays light
+
+        if not isinstance(value, ForVehicle):
+            return value
+        return value.value(load_vehicle(given.get("vehicle", self.vehicle)))
 
     def checked_settings(self, given: Mapping[str, Any], vehicle: Vehicle) -> Any:
         """Return the task's settings for a vehicle.

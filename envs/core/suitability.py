@@ -13,6 +13,9 @@ SURGE, SWAY, HEAVE, PITCH, YAW = 0, 1, 2, 4, 5
 CRUISE = 0.6
 """Speed of journeys over the largest."""
 
+CREEP = 0.05
+"""Speed at which a vehicle has to be able to slow down yet, to stop where it should, over that of journeys."""
+
 PERIODS_A_LENGTH = 15.0
 """Control periods in which a vehicle at full speed goes its own length, where these are longer than the shortest."""
 
@@ -88,6 +91,25 @@ def unable_to_sail(vehicle: Vehicle) -> str | None:
     return unable_to_travel(vehicle)
 
 
+def unable_to_berth(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle is no vessel that comes to a place at the surface and stops there; None if it is."""
+    return unable_to_sail(vehicle) or unable_to_slow_down(vehicle)
+
+
+def unable_to_slow_down(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle cannot slow down to `CREEP`; None if it can."""
+    from dq_marine.vehicles.analysis.sheet import drag_of  # here: `import dq_marine` stays light
+
+    slow = CREEP * cruising_speed(vehicle)
+    drag, astern = drag_of(vehicle, SURGE)(slow), float(vehicle.wrench_limits[SURGE])
+    if astern + drag > 0.0:
+        return None
+    return (
+        f"the task is to slow down, and the vehicle's model has a propeller in it that is still driving it ahead with "
+        f"{-drag:.3g} N at {slow:.2g} m/s, against {astern:.3g} N astern"
+    )
+
+
 def unable_to_dive_under_way(vehicle: Vehicle) -> str | None:
     """Return why a vehicle cannot change depth while it goes ahead and turns; None if it can."""
     limits = vehicle.wrench_limits
@@ -101,6 +123,25 @@ def unable_to_dive_under_way(vehicle: Vehicle) -> str | None:
 def unable_to_keep_up(vehicle: Vehicle) -> str | None:
     """Return why a vehicle cannot keep a pose that moves, in half a minute; None if it can."""
     return unable_to_hold_a_pose(vehicle) or too_slow(vehicle)
+
+
+def unable_to_track(vehicle: Vehicle) -> str | None:
+    """Return why a vehicle cannot follow a point that moves, by its pose or by steering; None if it can."""
+    if unable_to_keep_up(vehicle) is None:
+        return None
+    return unable_to_travel(vehicle) or unable_to_slow_down(vehicle)
+
+
+def tracks_by_steering(vehicle: Vehicle) -> bool:
+    """Whether a vehicle follows a point that moves by speed and course alone, its bow about along its way."""
+    return unable_to_keep_up(vehicle) is not None
+
+
+def turning_radius(vehicle: Vehicle, speed: float) -> float:
+    """Return the radius of the tightest steady turn at a speed [m], by the turn rate that damping of yaw allows."""
+    from dq_marine.vehicles.analysis.sheet import terminal_speed  # here: `import dq_marine` stays light
+
+    return speed / max(terminal_speed(vehicle, YAW), 1e-9)
 
 
 def too_slow(vehicle: Vehicle) -> str | None:

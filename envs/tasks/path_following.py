@@ -11,6 +11,7 @@ from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import bounded, bounded_vector, scale
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.places import starting_depth
+from dq_marine.envs.core.proportion import sea_for
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_travel
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
@@ -236,6 +237,7 @@ define_task(
         "easy": {"turn": 20.0, "climb": 4.0, "current": 0.0},
         "medium": {"current": 0.3},
         "hard": {"turn": 45.0, "climb": 12.0, "current": 0.4, "randomise": "default", "sensors": "auv"},
+        "waves": {"current": 0.3, "weather": sea_for(0.0075)},
     },
     unsuitable=unable_to_travel,
     vehicle="remus100",

@@ -6,11 +6,19 @@ import numpy as np
 import pytest
 
 from dq_marine.algebra.quaternion import rotate
+from dq_marine.task.berths import Berth, Harbour, from_berth
 from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
-from dq_marine.task.scenery import dock_seen, harmonics_seen, line_seen, pillars_seen, vessels_seen
+from dq_marine.task.scenery import (
+    dock_seen,
+    harbour_seen,
+    harmonics_seen,
+    line_seen,
+    pillars_seen,
+    vessels_seen,
+)
 from dq_marine.task.traffic import OtherVessel
-from dq_marine.task.world.pillars import Pillar
+from dq_marine.task.world.pillars import Hull, Pillar
 
 ZERO = (0.0, 0.0, 0.0)
 
@@ -42,6 +50,21 @@ def test_a_docks_throat_is_where_it_heaves_and_its_mouth_before_it():
     mouth = rotate(thing.attitude, (-thing.form.length, 0.0, 0.0))
     assert mouth == pytest.approx((-2.0 * dock.north, -2.0 * dock.east, 0.0))
     assert (thing.form.throat, thing.form.mouth) == pytest.approx((0.4, 1.0))
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_quay_and_its_piers_are_where_the_walls_are(side):
+    berth = Berth(0.6, 0.8, side)
+    harbour = Harbour(Hull(40.0, 9.0), 1.0, pier=80.0, basin=120.0, thickness=20.0)
+    (quay,) = harbour_seen(harbour._replace(pier=0.0), berth)
+    drawn, *piers = harbour_seen(harbour, berth)
+    assert drawn == quay
+    for thing, face in ((quay, (0.0, 0.0)), (piers[0], (-130.0, 80.0)), (piers[1], (130.0, 80.0))):
+        away = (0.0, 0.5 * side * -thing.form.along_y, 0.0)
+        middle = np.add(thing.position_ned, rotate(thing.attitude, away))
+        assert tuple(middle[:2]) == pytest.approx(from_berth(harbour, berth, *face), abs=1e-9)
+        assert thing.position_ned[2] - 0.5 * thing.form.along_z < 0.0  # above the water
+    assert [(one.form.along_x, one.form.along_y) for one in piers] == [(20.0, 80.0)] * 2
 
 
 def test_lines_go_through_their_points():

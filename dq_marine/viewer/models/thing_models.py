@@ -1,4 +1,4 @@
-"""Things around a vehicle to draw: pillars, other vessels, docks, pipes and lines, seabeds."""
+"""Things around a vehicle to draw: pillars, other vessels, docks, quays, pipes and lines, seabeds."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from dq_marine.task.things import Column, Cone, Form, Line, Relief, ShipHull, Tube
-from dq_marine.viewer.meshes import Mesh, cylinder, grid_triangles, revolved
+from dq_marine.task.things import Block, Column, Cone, Form, Line, Relief, ShipHull, Tube
+from dq_marine.viewer.meshes import Mesh, cuboid, cylinder, grid_triangles, revolved
 from dq_marine.viewer.models.paint import SIGNAL_ORANGE
 from dq_marine.viewer.models.ship_model import HULL, ship_parts
 from dq_marine.viewer.placement import Y_AXIS, Y_TO_X, Placement, rotation_between
@@ -18,6 +18,7 @@ RUST = 0xA4553A
 BAND = 0xF1F3F4
 GREY = 0x5E6A75
 FUNNEL = 0xE8ECEF
+CONCRETE = 0xB4B2AA
 PIPE = 0xE0A100
 SAND = 0xA99A78
 ROUTE = 0x5CFFA0
@@ -50,6 +51,8 @@ def thing_model(form: Form) -> tuple[list[Painted], Look]:
             return _ship(form), SOLID
         case Cone():
             return _cone(form), HOLLOW
+        case Block():
+            return [Painted(cuboid(form.along_x, form.along_y, form.along_z), CONCRETE)], SOLID
         case Line():
             return [Painted(tube(np.array(form.points), form.radius), ROUTE)], FAINT
         case Tube():

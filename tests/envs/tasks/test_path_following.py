@@ -105,3 +105,13 @@ def test_paths_of_what_floats_are_level_and_scale_with_the_vehicle():
 def test_wrong_keywords_are_refused(name, value):
     with pytest.raises(InvalidInputError, match=name):
         env_of(**{name: value})
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize("vehicle", ["otter", "supply_vessel"])
+def test_the_baseline_follows_the_path_in_waves(vehicle):
+    env = env_of(vehicle=vehicle, level="waves")
+    assert env.time_varying
+    infos, terminated = flown(env, seed=1)
+    assert terminated
+    assert infos[-1]["is_success"]

@@ -4,13 +4,29 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.sweeps import sweep
 
 from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.controllers.reading import parts_reader, shown_names
+from dq_marine.agents.controllers.tracking import TrackingController
 from dq_marine.agents.evaluation.episodes import fly_episode
-from dq_marine.envs.tasks.trajectory_tracking import AHEAD, HEADING, HELD, POSITION
+from dq_marine.envs.core.definition import EpisodeContext
+from dq_marine.envs.core.registry import task_called
+from dq_marine.envs.core.suitability import cruising_speed
+from dq_marine.envs.tasks.trajectory_tracking import (
+    AHEAD,
+    HEADING,
+    HELD,
+    POSITION,
+    ROOM,
+    START_TURN,
+    STEERED,
+)
 from dq_marine.errors import InvalidInputError, UnsuitableVehicleWarning
+from dq_marine.integrator.body import Motion
 from dq_marine.task.shapes import SHAPES
+from dq_marine.vehicles import load_vehicle
+from dq_marine.vehicles.analysis.sheet import terminal_speed
 
 ID = "dq_marine/TrajectoryTracking-v0"
 
@@ -116,7 +132,64 @@ def test_wrong_keywords_are_refused(keywords, message):
         made(**keywords)
 
 
-@pytest.mark.parametrize("vehicle", ["osv83", "remus100"])
-def test_a_vehicle_that_cannot_keep_up_is_named(vehicle):
-    with pytest.warns(UnsuitableVehicleWarning, match=r"TrajectoryTracking-v0 cannot be done with"):
-        made(vehicle=vehicle)
+def test_a_vehicle_that_cannot_keep_up_is_named():
+    with pytest.warns(
+        UnsuitableVehicleWarning, match=r"TrajectoryTracking-v0 cannot be done with .* propeller"
+    ):
+        made(vehicle="mariner")
+
+
+@pytest.mark.parametrize(
+    "vehicle",
+    sweep(
+        ["kvlcc2", "kvlcc2_l7", "npsauv", "osv83", "otter", "remus100", "supply_vessel", "tanker"],
+        plain=["otter"],
+    ),
+)
+def test_the_baseline_steers_along_with_the_point(vehicle):
+    env = made(vehicle=vehicle, level="medium")
+    controller = controller_for(env)
+    assert isinstance(controller, TrackingController)
+    for seed in range(3):
+        episode = fly_episode(env, controller, seed=seed)
+        assert episode.success, f"seed {seed}"
+
+
+def own_parameters(vehicle, **keywords):
+    """The numbers of an episode, of a vehicle of the catalogue."""
+    loaded, definition = load_vehicle(vehicle), task_called(ID)
+    settings = definition.checked_settings(keywords, loaded)
+    return definition.parameters(settings, EpisodeContext(loaded, definition.period_for(loaded), {}))
+
+
+@pytest.mark.parametrize("vehicle", ["otter", "remus100", "kvlcc2", "tanker"])
+def test_vehicles_that_only_steer_start_on_their_way_beside_the_point(vehicle):
+    own, task = own_parameters(vehicle), task_called(ID).task
+    for seed in range(20):
+        uniforms = tuple(np.random.default_rng(seed).uniform(size=task.draws))
+        begun = task.start(own, uniforms)
+        point = task.initial_memory(own, begun, uniforms)
+        velocity = np.multiply(point.rate, point.point.slope_ned)[:2]
+        off = task.measure(own, point, Motion(*begun))
+        assert off.position_error <= own.size
+        assert off.heading_error <= START_TURN + 1e-9
+        assert begun.velocity.linear[0] == pytest.approx(np.hypot(*velocity))
+
+
+@pytest.mark.parametrize("vehicle", ["otter", "osv83", "kvlcc2", "tanker", "remus100"])
+def test_curves_leave_room_for_the_turns_of_a_vehicle_that_only_steers(vehicle):
+    loaded, own = load_vehicle(vehicle), own_parameters(vehicle)
+    assert own.radius >= ROOM * own.speed / terminal_speed(loaded, 5) * (1.0 - 1e-12)
+    assert own.radius >= 8.0 * loaded.dimensions.length * (1.0 - 1e-12)
+    assert own_parameters(vehicle, radius=3.0).radius == pytest.approx(3.0 * loaded.dimensions.length)
+
+
+def test_vehicles_that_hold_a_pose_have_the_numbers_that_they_had():
+    rov, ship = own_parameters("rexrov"), own_parameters("kvlcc2")
+    assert (rov.exact.position, rov.exact.heading, rov.exact.held) == (POSITION * 2.6, HEADING, HELD)
+    assert (rov.exact.stretch, rov.exact.under_way, rov.radius) == (1.0, 0.0, 8.0 * 2.6)
+    assert (ship.exact.position, ship.exact.under_way) == (STEERED[0] * 320.0, 1.0)
+    assert ship.exact.held == pytest.approx(50.0 * 3.0)  # 50 control periods, as of the ROV
+    assert task_called(ID).at_level("medium", {"vehicle": "rexrov"})["current"] == 0.3
+    slow = task_called(ID).at_level("medium", {"vehicle": "kvlcc2"})["current"]
+    assert slow == pytest.approx(0.05 * cruising_speed(load_vehicle("kvlcc2")))
