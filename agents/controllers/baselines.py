@@ -11,6 +11,7 @@ from dq_marine.agents.controllers.avoidance import AvoidanceController
 from dq_marine.agents.controllers.docking import DockingController
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.encounters import EncounterController
+from dq_marine.agents.controllers.formations import FormationController
 from dq_marine.agents.controllers.journeys import DepthHeadingController, PathController, WaypointController
 from dq_marine.agents.controllers.reading import shown_names
 from dq_marine.agents.environments import marine
@@ -61,6 +62,7 @@ CONTROLLERS: tuple[type[Controller], ...] = (
     WaypointController,
     DepthHeadingController,
     EncounterController,
+    FormationController,
     AvoidanceController,
 )
 """What "controller" may mean: the first of them that an environment shows enough to."""

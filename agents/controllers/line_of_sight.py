@@ -41,9 +41,20 @@ class LineOfSight:
             bend_body: its curvature [1 / vehicle length], shape (3,).
             off: how far the vehicle is to starboard of the path and below it [m].
         """
-        level, upright = self._sights or self._make_sights(speed)
         way = levelled(tuple(ahead_body.tolist()), attitude.roll, attitude.pitch)
         bend = levelled(tuple(bend_body.tolist()), attitude.roll, attitude.pitch)
+        return self.level_order(attitude, speed, way, bend, off)
+
+    def level_order(
+        self,
+        attitude: Attitude,
+        speed: float,
+        way: tuple[float, float, float],
+        bend: tuple[float, float, float],
+        off: Offset,
+    ) -> Order:
+        """Return the order, as `order` does, for vectors ahead, to starboard and down of the vehicle as if it were level."""
+        level, upright = self._sights or self._make_sights(speed)
         along = math.hypot(way[0], way[1])
         turning = speed * (way[0] * bend[1] - way[1] * bend[0]) / along / self._pilot.length
         course = math.atan2(way[1], way[0]) + level.correction(off.starboard, speed)

@@ -7,9 +7,10 @@ from collections.abc import Callable, Sequence
 
 from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.vector3 import Vector3
+from dq_marine.task.acoustics import Sender
 from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
-from dq_marine.task.things import Column, Cone, Line, ShipHull, Thing
+from dq_marine.task.things import Column, Cone, Line, ShipHull, Thing, TorpedoHull
 from dq_marine.task.traffic import OtherVessel
 from dq_marine.task.world.pillars import Pillar
 
@@ -42,6 +43,18 @@ def vessels_seen(others: Sequence[OtherVessel], length: float) -> list[Thing]:
         )
         for other in others
         if other.present > 0.5
+    ]
+
+
+def formation_seen(others: Sequence[Sender], length: float) -> list[Thing]:
+    """Return the vehicles of a formation, as long as one's own [m], heading where they go."""
+    return [
+        Thing(
+            TorpedoHull(length, BEAM * length),
+            other.position_ned,
+            quaternion_from_euler(0.0, 0.0, math.atan2(other.velocity_ned[1], other.velocity_ned[0])),
+        )
+        for other in others
     ]
 
 
