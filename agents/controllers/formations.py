@@ -74,7 +74,9 @@ class FormationController(Journey):
         bow = math.atan2(east, north)
         places = parts["places_from_own"].reshape(3, 2)
         place = (-float(places[0, 0]), -float(places[0, 1]))
-        state = self._estimated(parts, attitude, bow, place, [tuple(row) for row in (places - places[0]).tolist()])
+        state = self._estimated(
+            parts, attitude, bow, place, [tuple(row) for row in (places - places[0]).tolist()]
+        )
         # How far off its place the vehicle is, along the formation's course and to starboard of it.
         course, turning, speed = (float(state[k]) for k in (COURSE, TURNING, SPEED))
         here = turned((float(state[0]), float(state[1])), -course)

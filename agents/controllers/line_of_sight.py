@@ -53,7 +53,7 @@ class LineOfSight:
         bend: tuple[float, float, float],
         off: Offset,
     ) -> Order:
-        """Return the order, as `order` does, for vectors ahead, to starboard and down of the vehicle as if it were level."""
+        """Return the order, as `order` does, for vectors ahead, to starboard and down of a level vehicle."""
         level, upright = self._sights or self._make_sights(speed)
         along = math.hypot(way[0], way[1])
         turning = speed * (way[0] * bend[1] - way[1] * bend[0]) / along / self._pilot.length

@@ -35,13 +35,16 @@ LENGTH_STEP, SPEED_STEP, COURSE_STEP = 0.1, 0.02, math.tau / 256.0
 PACKET_DRAWS, DRIFT_DRAWS = 3, 8
 """Uniform random numbers for the errors of a packet, and for those of all navigations."""
 
+ERRING_DRAWS = PACKET_DRAWS + DRIFT_DRAWS
+"""Uniform random numbers that `erring` takes."""
+
 SENDERS = 3
 
 CONTENTS = ("none", "course", "position")
 """What packets may tell besides the range, each with what those before tell: course, speed and depth; the place."""
 
-PACKET_TIME = 0.2
-"""That 16 bytes take at 640 bit/s [s]."""
+SLOT_TIME, PACKET_TIME = 1.0, 0.2
+"""Of a sender's turn; and that 16 bytes take at 640 bit/s [s]. What is left is for sound to go a kilometre."""
 
 DRIFT_TIME = 100.0
 """In which an error of navigation fades [s]."""
@@ -163,10 +166,10 @@ def travel_time(offset: Vector3, velocity: Vector3) -> float:
     return (along + math.sqrt(along * along + slower * dot(offset, offset))) / slower
 
 
-def link_of(noise: float, dropout: float, contents: str, drift: float, slot: float, period: float) -> Link:
+def link_of(noise: float, dropout: float, contents: str, drift: float, period: float) -> Link:
     """Return the link with packets of one of `CONTENTS`, for a control period [s]; for the rest see `Link`."""
     told, kept = CONTENTS.index(contents), math.exp(-period / DRIFT_TIME)
-    return Link(noise, dropout, drift, kept, slot, PACKET_TIME, float(told > 0), float(told > 1))
+    return Link(noise, dropout, drift, kept, SLOT_TIME, PACKET_TIME, float(told > 0), float(told > 1))
 
 
 def first_modem(link: Link, uniforms: tuple[float, ...], index: int) -> Modem:

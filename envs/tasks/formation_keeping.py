@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.level import level_bow, level_turned
+from dq_marine.algebra.level import level_bow
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import bounded, bounded_vector
@@ -14,13 +14,12 @@ from dq_marine.checks import finite_number, one_of
 from dq_marine.envs.core.observed import packets_shown
 from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_dive_under_way
-from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
+from dq_marine.envs.kit import VELOCITY, EpisodeContext, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
 from dq_marine.task.acoustics import (
     CONTENTS,
     DRIFT_DRAWS,
-    PACKET_DRAWS,
-    SENDERS,
+    ERRING_DRAWS,
     Link,
     Modem,
     erring,
@@ -30,39 +29,30 @@ from dq_marine.task.acoustics import (
     packets_told,
 )
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
-from dq_marine.task.formation import (
-    Formation,
-    Places,
-    drawn_places,
-    formation,
-    keeping,
-    make_advance,
-    places_from_own,
-)
+from dq_marine.task.formation import March, Winding, about_place, keeping, make_marches, places_from_own
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import formation_seen
-from dq_marine.task.splines import make_spline, make_winding, winding_draws
 from dq_marine.task.starts import under_way
 
-SPANS = 4  # of the leader's course, about a leg each
-(point_at, _), wind = make_spline(SPANS), make_winding(SPANS)
-advanced = make_advance(point_at)
+SPANS, COUNTED = 4, 2.0  # of the leader's course, about a leg each; from when on errors count
+march_draws, first, drawn, onward, formation = make_marches(SPANS)
 SLOWER = 0.75  # speed of the leader, over that of journeys: others have to catch up
 LEAST_DEPTH, LEAST_SPACING, LEAST_TOLERANCE = 20.0, 3.0, 1.0  # [m]
 LEG, LEG_TIME = 3.0, 20.0  # of the leader's course: at least so long [spacings, s]
-START_OFFSET, START_TURN, START_DRAWS = 0.3, math.radians(20.0), 5  # from one's place [spacings, rad]
-COUNTED = 2.0  # span from whose beginning on errors count
-TOLERANCE, LOST = 0.5, 5.0  # success: never farther from one's place [lengths]; the end [spacings]
-FAR = 10.0  # bound of what is shown: distances [spacings]
+START_OFFSET, START_TURN, START_DRAWS = 0.3, math.radians(20.0), 4  # from one's place [spacings, rad]
+TOLERANCE, SAFE = (
+    0.5,
+    1.5,
+)  # success: never farther from one's place; others that are nearer are hit [lengths]
+LOST, FAR = 5.0, 10.0  # episodes end beyond this distance from one's place; bound of what is shown [spacings]
 
 
 @dataclass(frozen=True)
 class Settings:
-    """Spacing [vehicle lengths, 3 m at least]; turns and slopes of the leader's course [degrees]; packets; collisions.
+    """Spacing [vehicle lengths, 3 m at least]; turns and slopes of the leader's course [degrees]; and packets.
 
-    Ranges have `noise` [m], a packet is lost with the probability `dropout`, and each vehicle has its turn to send for
-    `slot` [s]. What packets say is one of "none", "course" (with speed and depth) and "position", which is by the
-    sender's navigation and drifts by `drift` [m]. Vehicles nearer than `safe_distance` [vehicle lengths] collide.
+    Ranges have `noise` [m], packets are lost with the probability `dropout`, and tell by `contents`: "none", "course"
+    (with speed and depth), or also "position", by the sender's navigation, which drifts by `drift` [m].
     """
 
     spacing: float = 4.0
@@ -72,8 +62,6 @@ class Settings:
     dropout: float = 0.1
     contents: str = "position"
     drift: float = 2.0
-    slot: float = 1.0
-    safe_distance: float = 1.5
 
 
 def fitted(given: Settings, vehicle: Any) -> Settings:
@@ -87,21 +75,16 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
         dropout=finite_number("dropout", given.dropout, least=0.0, most=0.9),
         contents=one_of("contents", given.contents, CONTENTS),
         drift=finite_number("drift", given.drift, least=0.0, most=1e2),
-        slot=finite_number("slot", given.slot, least=1.0, most=60.0),
-        safe_distance=finite_number("safe_distance", given.safe_distance, above=0.0, most=2.0),
     )
 
 
 class Parameters(NamedTuple):
-    """Speed [m/s], length, spacing, depth, leg [m], turn, climb [rad]; packets; safe distance, tolerance [m]; period [s]."""
+    """Speed [m/s]; spacing, depth [m]; leader's course; packets; safe distance, tolerance [m]; period [s]."""
 
     speed: float
-    length: float
     spacing: float
     depth: float
-    leg: float
-    turn: float
-    climb: float
+    winding: Winding
     link: Link
     safe: float
     tolerance: float
@@ -109,34 +92,28 @@ class Parameters(NamedTuple):
 
 
 class Metrics(NamedTuple):
-    """Distance from one's place, its worst since errors count [m], bow off the course there [rad], nearest other [m].
-
-    Also the share of the leader's course that is done.
-    """
+    """Distance from one's place [m], bow off the course there [rad], nearest other, worst error [m]; share done."""
 
     slot_error: float
-    worst_error: float
     heading_error: float
     nearest_distance: float
+    worst_error: float
     share_done: float
 
 
 class Memory(NamedTuple):
-    """Control points of the leader's course [m], its parameter; places; modem; start's depth [m]; metrics."""
+    """The leader's course and who is where, one's own modem, and the metrics."""
 
-    controls: Any
-    parameter: float
-    places: Places
+    march: March
     modem: Modem
     metrics: Metrics
 
 
 class Rewards(NamedTuple):
-    """Terms of the reward, and their weights: nearness to one's place, far and close; bow along it; ends; effort."""
+    """Terms of the reward, and their weights: nearness to one's place, far and close; ends; effort."""
 
-    nearness: float = 0.5
+    nearness: float = 0.6
     closeness: float = 0.4
-    heading: float = 0.1
     finish: float = 20.0
     collision: float = 50.0
     effort: float = 0.02
@@ -151,16 +128,14 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
     vehicle, length, period = context.vehicle, context.vehicle.dimensions.length, context.control_period
     speed, spacing = SLOWER * cruising_speed(vehicle), spacing_of(settings, vehicle)
+    leg, turn, climb = max(LEG * spacing, LEG_TIME * speed), settings.turn, settings.climb
     return Parameters(
         speed,
-        length,
         spacing,
         starting_depth(vehicle, LEAST_DEPTH),
-        max(LEG * spacing, LEG_TIME * speed),
-        math.radians(settings.turn),
-        math.radians(settings.climb),
-        link_of(settings.noise, settings.dropout, settings.contents, settings.drift, settings.slot, period),
-        settings.safe_distance * length,
+        Winding(leg, math.radians(turn), math.radians(climb)),
+        link_of(settings.noise, settings.dropout, settings.contents, settings.drift, period),
+        SAFE * length,
         max(LEAST_TOLERANCE, TOLERANCE * length),
         period,
     )
@@ -168,38 +143,32 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
 
 def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     """Return a start about one's place in the formation, under way about along its course."""
-    course, place = math.tau * uniforms[START_DRAWS], drawn_places(own.spacing, uniforms[0]).own
-    ahead = place[0] + START_OFFSET * own.spacing * (2.0 * uniforms[1] - 1.0)
-    starboard = place[1] + START_OFFSET * own.spacing * (2.0 * uniforms[2] - 1.0)
-    north, east = level_turned((ahead, starboard), course)
-    heading = course + START_TURN * (2.0 * uniforms[3] - 1.0)
-    return under_way((north, east, own.depth), heading, own.speed * (0.5 + 0.5 * uniforms[4]))
+    course, place = first(own.spacing, uniforms, START_DRAWS)
+    north, east = about_place(place, START_OFFSET * own.spacing, course, uniforms, 0)
+    heading = course + START_TURN * (2.0 * uniforms[2] - 1.0)
+    return under_way((north, east, own.depth), heading, own.speed * (0.5 + 0.5 * uniforms[3]))
 
 
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
     """Return a new course of the leader, with nothing heard yet."""
-    controls = wind((0.0, 0.0, own.depth), own.leg, own.turn, own.climb, uniforms, START_DRAWS)
-    places = drawn_places(own.spacing, uniforms[0])
-    modem = first_modem(own.link, uniforms, START_DRAWS + winding_draws(SPANS))
-    here = keeping(formation(point_at(controls, 0.0), own.speed, places), Motion(*begun))
-    return Memory(controls, 0.0, places, modem, Metrics(here.off, 0.0, here.turned, here.nearest, 0.0))
+    march = drawn(own.spacing, (0.0, 0.0, own.depth), own.winding, uniforms, START_DRAWS)
+    here = keeping(formation(march, own.speed), Motion(*begun))
+    metrics = Metrics(here.off, here.turned, here.nearest, 0.0, 0.0)
+    return Memory(march, first_modem(own.link, uniforms, START_DRAWS + march_draws), metrics)
 
 
 def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
     """Return the memory with the errors of a packet that is sent now, and of navigations."""
-    modem = erring(own.link, memory.modem, uniforms)
-    return Memory(memory.controls, memory.parameter, memory.places, modem, memory.metrics)
+    return Memory(memory.march, erring(own.link, memory.modem, uniforms), memory.metrics)
 
 
 def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
     """Return where all are one control period on, and what has been heard."""
-    parameter = advanced(memory.controls, memory.parameter, own.speed * own.period)
-    now = formation(point_at(memory.controls, parameter), own.speed, memory.places)
-    modem = listened(own.link, memory.modem, motion, now.others, own.period)
-    here = keeping(now, motion)
-    worst = select(parameter < COUNTED, 0.0, max(memory.metrics.worst_error, here.off))
-    metrics = Metrics(here.off, worst, here.turned, here.nearest, parameter / SPANS)
-    return Memory(memory.controls, parameter, memory.places, modem, metrics)
+    march = onward(memory.march, own.speed * own.period)
+    now = formation(march, own.speed)
+    modem, here = listened(own.link, memory.modem, motion, now.others, own.period), keeping(now, motion)
+    worst = select(march.parameter < COUNTED, 0.0, max(memory.metrics.worst_error, here.off))
+    return Memory(march, modem, Metrics(here.off, here.turned, here.nearest, worst, march.parameter / SPANS))
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
@@ -207,7 +176,7 @@ def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
     bow, far = level_bow(measured.attitude), FAR * own.spacing
     return (
         packets_told(own.link, memory.modem, measured, bow, far),
-        places_from_own(memory.places),
+        places_from_own(memory.march.places),
         bow,
         bounded(measured.position_ned[2] - own.depth, far),
         bounded_vector(rotate_inverse(measured.attitude, (0.0, 0.0, 1.0)), 1.0),
@@ -220,7 +189,7 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     """Return what an observation consists of."""
     far = FAR * spacing_of(settings, vehicle)
     return (
-        *packets_shown(SENDERS, far),
+        *packets_shown(far),
         Observed("places_from_own", "m", 6, far, "of the three, from one's own, along the leader's course"),
         Observed("bow_north_east", "", 2, 1.0, "where the bow points, by compass"),
         Observed("deeper_than_start", "m", 1, far, "one's own depth less that at which the formation starts"),
@@ -241,7 +210,6 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     return Rewards(
         weights.nearness * math.exp(-off / own.spacing),
         weights.closeness * math.exp(-near * near),
-        weights.heading * math.cos(now.metrics.heading_error),
         weights.finish * select(succeeded(own, now), 1.0, 0.0),
         -(weights.collision * select(now.metrics.nearest_distance < own.safe, 1.0, 0.0)),
         effort(weights.effort, now),
@@ -260,36 +228,20 @@ def terminated(own: Parameters, now: Situation) -> Any:
     return over | (now.metrics.slot_error > LOST * own.spacing)
 
 
-def now_at(own: Parameters, memory: Memory) -> Formation:
-    """Return where all are, for drawing."""
-    return formation(point_at(memory.controls, memory.parameter), own.speed, memory.places)
-
-
-def goal(own: Parameters, memory: Memory) -> Goal:
-    """Return one's own place, for drawing."""
-    return goal_along(*now_at(own, memory).own)
-
-
 define_task(
     globals(),
     id="dq_marine/FormationKeeping-v0",
-    summary="Keep one's place in a formation that is known by an acoustic modem, in an unseen current.",
-    draws=START_DRAWS + winding_draws(SPANS) + DRIFT_DRAWS,
-    sense_draws=PACKET_DRAWS + DRIFT_DRAWS,
-    scenery=lambda own, memory: formation_seen(now_at(own, memory).others, own.length),
+    summary="Keep one's place in a formation that an acoustic modem tells of, in an unseen current.",
+    draws=START_DRAWS + march_draws + DRIFT_DRAWS,
+    sense_draws=ERRING_DRAWS,
+    goal=lambda own, memory: goal_along(*formation(memory.march, own.speed).own),
+    scenery=lambda own, memory: formation_seen(formation(memory.march, own.speed).others, own.safe / SAFE),
     units={"slot_error": "m", "worst_error": "m", "heading_error": "rad", "nearest_distance": "m"},
     tolerances={"slot_error": LEAST_TOLERANCE},
     levels={
-        "easy": {"turn": 15.0, "climb": 0.0, "noise": 0.05, "dropout": 0.0, "drift": 0.5, "current": 0.0},
+        "easy": {"turn": 15.0, "climb": 0.0, "noise": 0.05, "dropout": 0.0, "current": 0.0},
         "medium": {"current": 0.1},
-        "hard": {
-            "turn": 40.0,
-            "climb": 0.0,
-            "noise": 0.5,
-            "dropout": 0.3,
-            "contents": "none",
-            "current": 0.2,
-        },
+        "hard": {"climb": 0.0, "dropout": 0.2, "contents": "none", "current": 0.2},
     },
     unsuitable=unable_to_dive_under_way,
     vehicle="remus100",
