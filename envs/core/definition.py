@@ -17,6 +17,7 @@ from dq_marine.checks import finite_number, one_of, shown
 from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.task.protocol import Task
 from dq_marine.task.things import Thing
+from dq_marine.task.traffic import Own
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
@@ -125,6 +126,8 @@ class TaskDefinition:
         tolerances: of some metrics: an episode is settled from when on all of them stay within.
         goal: (parameters, memory) -> the goal to be drawn.
         scenery: (parameters, memory) -> what is around the vehicle, to be drawn.
+        meets: (parameters, memory) -> one's own vessel, of a task whose memory has a `Lookout` called `lookout`, into
+            which environments of several agents write the others.
         goal_reward: (parameters, weights, achieved goal, desired goal) -> the term `goal` of the reward, with its
             weight, of a task whose observation has goals among its parts: for `compute_reward` and hindsight replay.
         levels: of difficulty, by name, the easiest first: keywords of the task and of `dq_marine.Settings`.
@@ -150,6 +153,7 @@ class TaskDefinition:
     tolerances: Mapping[str, float] = field(default_factory=dict)
     goal: Callable[[Any, Any], Goal | None] = no_goal
     scenery: Callable[[Any, Any], Sequence[Thing]] = nothing_around
+    meets: Callable[[Any, Any], Own] | None = None
     goal_reward: Callable[[Any, Any, Any, Any], float] | None = None
     levels: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     unsuitable: Callable[[Vehicle], str | None] = suits_all

@@ -23,6 +23,7 @@ from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.episode import Episode, check_entries, restored_episode, restored_generator
 from dq_marine.envs.core.observation import Observation, as_shown, observation_space
 from dq_marine.envs.core.refusal import integration_report
+from dq_marine.envs.core.shared_memory import parameters_of, task_memory
 from dq_marine.envs.core.start import NO_UNIFORMS, as_chosen, drawn_uniforms
 from dq_marine.envs.core.view import EpisodeView, checked_render_mode
 from dq_marine.errors import InvalidInputError
@@ -30,10 +31,8 @@ from dq_marine.integrator.body import Motion
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import ACCEPTED, StepParameters
 from dq_marine.simulation.settings import Settings, SettingsKeywords, VehicleLike
-from dq_marine.task.action import ActuatedMemory
 from dq_marine.task.episode import EpisodeParameters
 from dq_marine.task.protocol import RewardTerm
-from dq_marine.task.sensors.observing import Sensed
 from dq_marine.task.start import CLOCK_SPAN, Drawn, beginning_draws, make_draw
 from dq_marine.vehicles import Vehicle
 from dq_marine.viewer.snapshot import Snapshot
@@ -135,7 +134,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self._episode.clock = CLOCK_SPAN * self.np_random.random()
         self.refusal = None
         self._view.begin(self)
-        return self.observation, self._step.infos.of(self._episode, False, 0)
+        return self.observation, self.info
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
@@ -155,17 +154,8 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         step = self._step
         whole = whole_action(step.action_mapping, action)
         uniforms = drawn_uniforms(self.np_random, step.draws, whole) if step.draws else NO_UNIFORMS
-        status, completed, fallbacks, residual_squared, reward, terminated = step.compiled(
-            episode.parameters,
-            episode.episode_parameters,
-            episode.state,
-            episode.memory,
-            whole,
-            episode.observation,
-            episode.report,
-            episode.periods * step.duration + episode.clock,
-            step.substeps,
-            uniforms,
+        status, completed, fallbacks, residual_squared, reward, terminated = self._advance(
+            episode, whole, uniforms
         )
         if status == ACTION_NOT_FINITE:
             raise InvalidInputError(
@@ -187,6 +177,21 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self._view.show(self)
         info = step.infos.of(episode, status != ACCEPTED, fallbacks)
         return as_shown(episode.observation, step.observation_places), reward, terminated != 0.0, False, info
+
+    def foreseen(self, action: Action) -> Motion:
+        """Return the motion at the end of the control period that an action would be held for; nothing is changed.
+
+        Raises:
+            InvalidInputError: the action has a wrong shape.
+            ResetNeeded: before the first reset.
+        """
+        episode, step = Episode(**self._running("foreseen").to_dict()), self._step
+        whole = whole_action(step.action_mapping, action)
+        uniforms = NO_UNIFORMS
+        if step.draws:
+            uniforms = drawn_uniforms(copy.deepcopy(self.np_random), step.draws, whole)
+        self._advance(episode, whole, uniforms)
+        return self._motion(unpack(self.base_parameters, episode.parameters), episode.body)
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return a picture, uint8 (height, width, 3), in mode "rgb_array"; None otherwise.
@@ -224,6 +229,11 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def observation(self) -> Observation:
         """What the last `reset` or `step` returned."""
         return as_shown(self._running("observation").observation, self.observation_places)
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """What `reset` says of the episode as it is now."""
+        return self._step.infos.of(self._running("info"), False, 0)
 
     @property
     def motion(self) -> Motion:
@@ -306,10 +316,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def snapshot(self) -> Snapshot:
         """Return what a viewer draws now."""
         episode, motion = self._running("snapshot"), self.motion
-        parameters = unpack(self.episode_parameters({}), episode.episode_parameters)
-        memory = unpack(self.blank_memory, episode.memory)
-        while isinstance(memory, Sensed | ActuatedMemory):
-            memory = memory.task
+        parameters, memory = parameters_of(self), task_memory(self)
         goal = self.definition.goal(parameters.task, memory)
         return Snapshot(
             time=self.time,
@@ -333,6 +340,22 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         if self._episode is None:
             raise ResetNeeded(f"{what} was asked for before reset(); call reset() first")
         return self._episode
+
+    def _advance(self, episode: Episode, action: NDArray[np.float64], uniforms: NDArray[np.float64]) -> Any:
+        """Advance an episode's arrays by a control period; see `compiled_control_period`."""
+        step = self._step
+        return step.compiled(
+            episode.parameters,
+            episode.episode_parameters,
+            episode.state,
+            episode.memory,
+            action,
+            episode.observation,
+            episode.report,
+            episode.periods * step.duration + episode.clock,
+            step.substeps,
+            uniforms,
+        )
 
     def _new_episode(self, parameters: EpisodeParameters, drawn: Drawn, number: int = 0) -> Episode:
         parts = (self.scene.composition, self.task, self.pool.parameters[number], parameters, drawn)
