@@ -152,15 +152,8 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         """
         episode = self._episode or self._running("step")
         step = self._step
-        whole = whole_action(step.action_mapping, action)
-        uniforms = drawn_uniforms(self.np_random, step.draws, whole) if step.draws else NO_UNIFORMS
-        status, completed, fallbacks, residual_squared, reward, terminated = self._advance(
-            episode, whole, uniforms
-        )
-        if status == ACTION_NOT_FINITE:
-            raise InvalidInputError(
-                f"action = {np.asarray(action).tolist()} is not finite; give finite numbers"
-            )
+        whole, outcome = self._advance(episode, action, self.np_random)
+        status, completed, fallbacks, residual_squared, reward, terminated = outcome
         episode.action = whole
         episode.periods += 1
         if fallbacks:
@@ -182,15 +175,11 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         """Return the motion at the end of the control period that an action would be held for; nothing is changed.
 
         Raises:
-            InvalidInputError: the action has a wrong shape.
+            InvalidInputError: the action has a wrong shape or a NaN or infinity.
             ResetNeeded: before the first reset.
         """
-        episode, step = Episode(**self._running("foreseen").to_dict()), self._step
-        whole = whole_action(step.action_mapping, action)
-        uniforms = NO_UNIFORMS
-        if step.draws:
-            uniforms = drawn_uniforms(copy.deepcopy(self.np_random), step.draws, whole)
-        self._advance(episode, whole, uniforms)
+        episode = Episode(**self._running("foreseen").to_dict())
+        self._advance(episode, action, copy.deepcopy(self.np_random))
         return self._motion(unpack(self.base_parameters, episode.parameters), episode.body)
 
     def render(self) -> NDArray[np.uint8] | None:
@@ -341,21 +330,34 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             raise ResetNeeded(f"{what} was asked for before reset(); call reset() first")
         return self._episode
 
-    def _advance(self, episode: Episode, action: NDArray[np.float64], uniforms: NDArray[np.float64]) -> Any:
-        """Advance an episode's arrays by a control period; see `compiled_control_period`."""
+    def _advance(
+        self, episode: Episode, action: Action, random: np.random.Generator
+    ) -> tuple[NDArray[np.float64], tuple[Any, ...]]:
+        """Advance an episode by a control period; return the action as compiled code takes it, and what came of it.
+
+        Raises:
+            InvalidInputError: the action has a wrong shape or a NaN or infinity; nothing is changed.
+        """
         step = self._step
-        return step.compiled(
+        whole = whole_action(step.action_mapping, action)
+        uniforms = drawn_uniforms(random, step.draws, whole) if step.draws else NO_UNIFORMS
+        outcome = step.compiled(
             episode.parameters,
             episode.episode_parameters,
             episode.state,
             episode.memory,
-            action,
+            whole,
             episode.observation,
             episode.report,
             episode.periods * step.duration + episode.clock,
             step.substeps,
             uniforms,
         )
+        if outcome[0] == ACTION_NOT_FINITE:
+            raise InvalidInputError(
+                f"action = {np.asarray(action).tolist()} is not finite; give finite numbers"
+            )
+        return whole, outcome
 
     def _new_episode(self, parameters: EpisodeParameters, drawn: Drawn, number: int = 0) -> Episode:
         parts = (self.scene.composition, self.task, self.pool.parameters[number], parameters, drawn)
