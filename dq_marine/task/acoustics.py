@@ -140,21 +140,6 @@ class Modem(NamedTuple):
     drifts: tuple[Level, Level, Level, Level]
 
 
-NOTHING = Message((0.0, 0.0), 0.0, (1.0, 0.0), 0.0)
-UNTOLD = Heard(0.0, UNHEARD, 0.0, NOTHING)
-NO_DRIFT = (0.0, 0.0)
-SILENCE = Modem(
-    0.0,
-    SENDERS - 1.0,
-    Packet(0.0, 0.0, -1.0, NOTHING),
-    (UNTOLD, UNTOLD, UNTOLD),
-    0.0,
-    0.0,
-    (NO_DRIFT, NO_DRIFT, NO_DRIFT, NO_DRIFT),
-)
-"""Before anything is heard; the first sender's turn is next."""
-
-
 def travel_time(offset: Vector3, velocity: Vector3) -> float:
     """Return how long sound takes to a receiver [s], by (1).
 
@@ -172,9 +157,18 @@ def link_of(noise: float, dropout: float, contents: str, drift: float, period: f
     return Link(noise, dropout, drift, kept, SLOT_TIME, PACKET_TIME, float(told > 0), float(told > 1))
 
 
+def silent(drifts: tuple[Level, Level, Level, Level]) -> Modem:
+    """Return a modem that has heard nothing, with errors of navigations; the first sender's turn is next."""
+    nothing = Message((0.0, 0.0), 0.0, (1.0, 0.0), 0.0)
+    unheard = Heard(0.0, UNHEARD, 0.0, nothing)
+    packet = Packet(0.0, 0.0, -1.0, nothing)
+    return Modem(0.0, SENDERS - 1.0, packet, (unheard, unheard, unheard), 0.0, 0.0, drifts)
+
+
 def first_modem(link: Link, uniforms: tuple[float, ...], index: int) -> Modem:
     """Return a modem that has heard nothing; navigations err as in the long run, by `DRIFT_DRAWS` uniform numbers."""
-    return SILENCE._replace(drifts=_drifted(SILENCE.drifts, link.drift, 0.0, uniforms, index))
+    none = (0.0, 0.0)
+    return silent(_drifted((none, none, none, none), link.drift, 0.0, uniforms, index))
 
 
 def erring(link: Link, modem: Modem, uniforms: tuple[float, ...]) -> Modem:

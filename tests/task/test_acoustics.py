@@ -19,7 +19,6 @@ from dq_marine.task.acoustics import (
     LENGTH_STEP,
     PACKET_TIME,
     SENDERS,
-    SILENCE,
     SLOT_TIME,
     SOUND_SPEED,
     SPEED_STEP,
@@ -31,11 +30,13 @@ from dq_marine.task.acoustics import (
     listened,
     message_of,
     packets_told,
+    silent,
     travel_time,
     wandered,
 )
 
 PERIOD = 0.1
+SILENCE = silent(((0.0, 0.0),) * 4)
 components = st.floats(-500.0, 500.0)
 speeds = st.floats(-20.0, 20.0)
 PLACES = ((30.0, 0.0, 20.0), (0.0, 40.0, 20.0), (0.0, -50.0, 25.0))
