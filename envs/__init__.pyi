@@ -12,6 +12,8 @@ from dq_marine.envs.core.registry import registered_tasks as registered_tasks
 from dq_marine.envs.core.registry import task_named as task_named
 from dq_marine.envs.core.registry import tasks_suiting as tasks_suiting
 from dq_marine.envs.core.registry import unregister_task as unregister_task
+from dq_marine.envs.multi.parallel import MarineParallelEnv as MarineParallelEnv
+from dq_marine.envs.multi.parallel import parallel_env as parallel_env
 from dq_marine.envs.registration import register_environments as register_environments
 from dq_marine.envs.scenarios.environment import ScenarioStart as ScenarioStart
 from dq_marine.envs.scenarios.environment import make_scenario as make_scenario

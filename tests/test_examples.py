@@ -10,7 +10,7 @@ from support.sweeps import sweep
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py"))
-LONG = {"hindsight_replay", "ship_in_waves", "train_with_sb3"}
+LONG = {"hindsight_replay", "several_vessels", "ship_in_waves", "train_with_sb3"}
 AS_ON_A_PAGE = {"own_force", "own_reward"}  # tests/cli/test_add.py flies the like
 
 

@@ -12,6 +12,7 @@ from dq_marine.agents.controllers.berthing import BerthingController
 from dq_marine.agents.controllers.docking import DockingController
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.encounters import EncounterController
+from dq_marine.agents.controllers.formations import FormationController
 from dq_marine.agents.controllers.journeys import DepthHeadingController, PathController, WaypointController
 from dq_marine.agents.controllers.pipelines import PipelineController
 from dq_marine.agents.controllers.reading import shown_names
@@ -67,6 +68,7 @@ CONTROLLERS: tuple[type[Controller], ...] = (
     WaypointController,
     DepthHeadingController,
     EncounterController,
+    FormationController,
     AvoidanceController,
     TerrainController,
     PipelineController,

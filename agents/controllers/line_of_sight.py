@@ -43,6 +43,18 @@ class LineOfSight:
         """
         way = levelled(tuple(ahead_body.tolist()), attitude.roll, attitude.pitch)
         bend = levelled(tuple(bend_body.tolist()), attitude.roll, attitude.pitch)
+        return self.level_order(attitude, speed, way, bend, off)
+
+    def level_order(
+        self,
+        attitude: Attitude,
+        speed: float,
+        way: tuple[float, float, float],
+        bend: tuple[float, float, float],
+        off: Offset,
+    ) -> Order:
+        """Return the order, as `order` does, for vectors ahead, to starboard and down of a level vehicle."""
+        level, upright = self._sights or self._make_sights(speed)
         along = math.hypot(way[0], way[1])
         turning = speed * (way[0] * bend[1] - way[1] * bend[0]) / along / self._pilot.length
         return self.order_along(attitude, speed, way, turning, off)

@@ -9,10 +9,11 @@ from typing import Any
 from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.level import Level, from_above
 from dq_marine.algebra.vector3 import Vector3
+from dq_marine.task.acoustics import Sender
 from dq_marine.task.berths import Berth, Harbour, from_berth
 from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
-from dq_marine.task.things import Block, Column, Cone, Line, Relief, ShipHull, Thing, Tube
+from dq_marine.task.things import Block, Column, Cone, Line, Relief, ShipHull, Thing, TorpedoHull, Tube
 from dq_marine.task.traffic import OtherVessel
 from dq_marine.task.world.pillars import Pillar
 
@@ -51,6 +52,18 @@ def vessels_seen(others: Sequence[OtherVessel], length: float) -> list[Thing]:
         )
         for other in others
         if other.present > 0.5
+    ]
+
+
+def formation_seen(others: Sequence[Sender], length: float) -> list[Thing]:
+    """Return the vehicles of a formation, as long as one's own [m], heading where they go."""
+    return [
+        Thing(
+            TorpedoHull(length, BEAM * length),
+            other.position_ned,
+            quaternion_from_euler(0.0, 0.0, math.atan2(other.velocity_ned[1], other.velocity_ned[0])),
+        )
+        for other in others
     ]
 
 

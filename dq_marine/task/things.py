@@ -27,6 +27,13 @@ class ShipHull(NamedTuple):
     width: float
 
 
+class TorpedoHull(NamedTuple):
+    """Another vehicle under water, its bow ahead, about its middle: length and width [m]."""
+
+    length: float
+    width: float
+
+
 class Cone(NamedTuple):
     """A funnel, open at both ends: its throat at the origin, its mouth astern of it; radii and length [m]."""
 
@@ -65,7 +72,7 @@ class Relief(NamedTuple):
     depths: tuple[float, ...]
 
 
-Form = Column | ShipHull | Cone | Block | Line | Tube | Relief
+Form = Column | ShipHull | TorpedoHull | Cone | Block | Line | Tube | Relief
 
 
 class Thing(NamedTuple):

@@ -17,6 +17,7 @@ from dq_marine.checks import finite_number, one_of, shown
 from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.task.protocol import Task
 from dq_marine.task.things import Thing
+from dq_marine.task.traffic import Own
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
@@ -143,6 +144,8 @@ class TaskDefinition:
         scenery: (parameters, memory) -> what is around the vehicle, to be drawn.
         collided: (parameters, memory) -> whether the vehicle has hit something since the start, for evaluations; None
             of a task with nothing to hit.
+        meets: (parameters, memory) -> one's own vessel, of a task whose memory has a `Lookout` called `lookout`, into
+            which environments of several agents write the others.
         goal_reward: (parameters, weights, achieved goal, desired goal) -> the term `goal` of the reward, with its
             weight, of a task whose observation has goals among its parts: for `compute_reward` and hindsight replay.
         levels: of difficulty, by name, the easiest first: keywords of the task and of `dq_marine.Settings`, each with
@@ -170,6 +173,7 @@ class TaskDefinition:
     goal: Callable[[Any, Any], Goal | None] = no_goal
     scenery: Callable[[Any, Any], Sequence[Thing]] = nothing_around
     collided: Callable[[Any, Any], Any] | None = None
+    meets: Callable[[Any, Any], Own] | None = None
     goal_reward: Callable[[Any, Any, Any, Any], float] | None = None
     levels: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     unsuitable: Callable[[Vehicle], str | None] = suits_all

@@ -24,6 +24,7 @@ from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.episode import Episode, check_entries, restored_episode, restored_generator
 from dq_marine.envs.core.observation import Observation, as_shown, observation_space
 from dq_marine.envs.core.refusal import integration_report
+from dq_marine.envs.core.shared_memory import parameters_of, task_memory
 from dq_marine.envs.core.start import NO_UNIFORMS, as_chosen, drawn_uniforms
 from dq_marine.envs.core.view import EpisodeView, checked_render_mode
 from dq_marine.errors import InvalidInputError
@@ -31,10 +32,8 @@ from dq_marine.integrator.body import Motion
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import ACCEPTED, StepParameters
 from dq_marine.simulation.settings import Settings, SettingsKeywords, VehicleLike
-from dq_marine.task.action import ActuatedMemory
 from dq_marine.task.episode import EpisodeParameters
 from dq_marine.task.protocol import RewardTerm
-from dq_marine.task.sensors.observing import Sensed
 from dq_marine.task.start import CLOCK_SPAN, Drawn, beginning_draws, make_draw
 from dq_marine.vehicles import Vehicle
 from dq_marine.viewer.snapshot import Snapshot
@@ -136,7 +135,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self._episode.clock = CLOCK_SPAN * self.np_random.random()
         self.refusal = None
         self._view.begin(self)
-        return self.observation, self._step.infos.of(self._episode, False, 0)
+        return self.observation, self.info
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Hold an action for one control period.
@@ -154,24 +153,8 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         """
         episode = self._episode or self._running("step")
         step = self._step
-        whole = whole_action(step.action_mapping, action)
-        uniforms = drawn_uniforms(self.np_random, step.draws, whole) if step.draws else NO_UNIFORMS
-        status, completed, fallbacks, residual_squared, reward, terminated = step.compiled(
-            episode.parameters,
-            episode.episode_parameters,
-            episode.state,
-            episode.memory,
-            whole,
-            episode.observation,
-            episode.report,
-            episode.periods * step.duration + episode.clock,
-            step.substeps,
-            uniforms,
-        )
-        if status == ACTION_NOT_FINITE:
-            raise InvalidInputError(
-                f"action = {np.asarray(action).tolist()} is not finite; give finite numbers"
-            )
+        whole, outcome = self._advance(episode, action, self.np_random)
+        status, completed, fallbacks, residual_squared, reward, terminated = outcome
         episode.action = whole
         episode.periods += 1
         if fallbacks:
@@ -188,6 +171,17 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             self._view.show(self)
         info = step.infos.of(episode, status != ACCEPTED, fallbacks)
         return as_shown(episode.observation, step.observation_places), reward, terminated != 0.0, False, info
+
+    def foreseen(self, action: Action) -> Motion:
+        """Return the motion at the end of the control period that an action would be held for; nothing is changed.
+
+        Raises:
+            InvalidInputError: the action has a wrong shape or a NaN or infinity.
+            ResetNeeded: before the first reset.
+        """
+        episode = Episode(**self._running("foreseen").to_dict())
+        self._advance(episode, action, copy.deepcopy(self.np_random))
+        return self._motion(unpack(self.base_parameters, episode.parameters), episode.body)
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return a picture, uint8 (height, width, 3), in mode "rgb_array"; None otherwise.
@@ -225,6 +219,11 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def observation(self) -> Observation:
         """What the last `reset` or `step` returned."""
         return as_shown(self._running("observation").observation, self.observation_places)
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """What `reset` says of the episode as it is now."""
+        return self._step.infos.of(self._running("info"), False, 0)
 
     @property
     def motion(self) -> Motion:
@@ -326,7 +325,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def snapshot(self) -> Snapshot:
         """Return what a viewer draws now."""
         episode, motion = self._running("snapshot"), self.motion
-        parameters, memory = self._task_numbers
+        parameters, memory = parameters_of(self).task, task_memory(self)
         goal = self.definition.goal(parameters, memory)
         return Snapshot(
             time=self.time,
@@ -345,7 +344,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     def collided(self) -> bool | None:
         """Whether the vehicle has hit something in this episode; None of a task with nothing to hit."""
         own = self.definition.collided
-        return None if own is None else bool(own(*self._task_numbers))
+        return None if own is None else bool(own(parameters_of(self).task, task_memory(self)))
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Compile again (from the cache on disk) and start without a window."""
@@ -359,18 +358,38 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
             raise ResetNeeded(f"{what} was asked for before reset(); call reset() first")
         return self._episode
 
+    def _advance(
+        self, episode: Episode, action: Action, random: np.random.Generator
+    ) -> tuple[NDArray[np.float64], tuple[Any, ...]]:
+        """Advance an episode by a control period; return the action as compiled code takes it, and what came of it.
+
+        Raises:
+            InvalidInputError: the action has a wrong shape or a NaN or infinity; nothing is changed.
+        """
+        step = self._step
+        whole = whole_action(step.action_mapping, action)
+        uniforms = drawn_uniforms(random, step.draws, whole) if step.draws else NO_UNIFORMS
+        outcome = step.compiled(
+            episode.parameters,
+            episode.episode_parameters,
+            episode.state,
+            episode.memory,
+            whole,
+            episode.observation,
+            episode.report,
+            episode.periods * step.duration + episode.clock,
+            step.substeps,
+            uniforms,
+        )
+        if outcome[0] == ACTION_NOT_FINITE:
+            raise InvalidInputError(
+                f"action = {np.asarray(action).tolist()} is not finite; give finite numbers"
+            )
+        return whole, outcome
+
     def _new_episode(self, parameters: EpisodeParameters, drawn: Drawn, number: int = 0) -> Episode:
         parts = (self.scene.composition, self.task, self.pool.parameters[number], parameters, drawn)
         return begun_episode(*parts, number, self.action_mapping.size)
-
-    @property
-    def _task_numbers(self) -> tuple[Any, Any]:
-        """The task's own parameters and memory now, without those of sensors and actuators."""
-        episode = self._running("the task's memory")
-        memory = unpack(self.blank_memory, episode.memory)
-        while isinstance(memory, Sensed | ActuatedMemory):
-            memory = memory.task
-        return unpack(self.episode_parameters({}), episode.episode_parameters).task, memory
 
     @property
     def _parameters(self) -> StepParameters:

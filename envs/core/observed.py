@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dq_marine.envs.core.definition import Observed
+from dq_marine.task.acoustics import SENDERS, UNHEARD
 from dq_marine.task.common import SPEED_BOUND
 from dq_marine.task.lookout import VESSEL_SPEED_BOUND
 
@@ -35,5 +36,31 @@ def vessels_shown(count: int, far: float) -> tuple[Observed, ...]:
             ),
         )
         for k in range(1, count + 1)
+    ]
+    return tuple(one for parts in of_each for one in parts)
+
+
+def packets_shown(far: float) -> tuple[Observed, ...]:
+    """Return what `dq_marine.task.acoustics.packets_told` gives; places are bounded by `far` [m]."""
+    level = "ahead and to starboard"
+    of_each = [
+        (
+            Observed(
+                f"packet_{k}_told", "", 3, 1.0, f"1 or 0: {k} has been heard; tells its course; its place"
+            ),
+            Observed(f"packet_{k}_age", "s", 1, UNHEARD, "time since it was sent"),
+            Observed(f"packet_{k}_range", "m", 1, far, "range, to where the sender was then"),
+            Observed(
+                f"packet_{k}_position_level",
+                "m",
+                2,
+                far,
+                f"where it says it was, {level}, by both navigations",
+            ),
+            Observed(f"packet_{k}_deeper", "m", 1, far, "how much deeper it says it was"),
+            Observed(f"packet_{k}_course_level", "", 2, 1.0, f"its course, {level}"),
+            Observed(f"packet_{k}_speed", "m/s", 1, SPEED_BOUND, "its speed"),
+        )
+        for k in range(1, SENDERS + 1)
     ]
     return tuple(one for parts in of_each for one in parts)

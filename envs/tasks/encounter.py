@@ -35,8 +35,7 @@ from dq_marine.task.scenery import vessels_seen
 from dq_marine.task.starts import under_way
 from dq_marine.task.traffic import DEGREE, SLOTS, TRAFFIC_DRAWS, Own, traffic
 
-GATE = 3.0  # success: at the end of the route, within this of it [lengths]
-FAR = 4.0  # bounds of what is shown: distances [ways to the meeting]
+GATE, FAR = 3.0, 4.0  # success: so near the route's end [lengths]; bound of distances [ways to the meeting]
 
 
 @dataclass(frozen=True)
@@ -234,6 +233,7 @@ define_task(
     id="dq_marine/Encounter-v0",
     summary="Meet up to three vessels by the rules of the road, and go on along the route.",
     draws=1 + TRAFFIC_DRAWS,
+    meets=lambda own, memory: Own(memory.course, own.speed, own.length, own.way),
     scenery=lambda own, memory: vessels_seen(memory.lookout.vessels, own.length),
     collided=lambda own, memory: least_distance(memory.lookout) < own.safe,
     units={"least_distance": "m", "cpa_distance": "m", "cpa_time": "s", "goal_distance": "m"},

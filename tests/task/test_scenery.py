@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from dq_marine.algebra.quaternion import rotate
+from dq_marine.task.acoustics import Sender
 from dq_marine.task.berths import Berth, Harbour, from_berth
 from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
 from dq_marine.task.scenery import (
     dock_seen,
+    formation_seen,
     harbour_seen,
     harmonics_seen,
     line_seen,
@@ -40,6 +42,16 @@ def test_vessels_that_are_there_head_where_they_go():
     assert thing.position_ned == (100.0, -50.0, 0.0)
     assert rotate(thing.attitude, (1.0, 0.0, 0.0)) == pytest.approx((0.0, -1.0, 0.0))
     assert thing.form.length == 12.0
+
+
+def test_those_of_a_formation_are_where_they_are_and_head_where_they_go():
+    senders = [Sender((1.0, 2.0, 30.0), (0.0, 1.5, 0.1)), Sender((-4.0, 2.0, 30.0), (-1.0, 0.0, 0.0))]
+    things = formation_seen(senders, 1.3)
+    assert [thing.position_ned for thing in things] == [sender.position_ned for sender in senders]
+    bows = [rotate(thing.attitude, (1.0, 0.0, 0.0)) for thing in things]
+    assert bows[0] == pytest.approx((0.0, 1.0, 0.0))
+    assert bows[1] == pytest.approx((-1.0, 0.0, 0.0))
+    assert {thing.form.length for thing in things} == {1.3}
 
 
 def test_a_docks_throat_is_where_it_heaves_and_its_mouth_before_it():

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from viewer.samples import ROV, snapshot, yawed
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.task.things import Block, Column, Cone, Form, Line, Relief, ShipHull, Thing, Tube
+from dq_marine.task.things import Block, Column, Cone, Form, Line, Relief, ShipHull, Thing, TorpedoHull, Tube
 from dq_marine.viewer.meshes import Mesh, joined
 from dq_marine.viewer.models.thing_models import RIM, thing_model, tube
 from dq_marine.viewer.placement import HIDDEN_SCALE
@@ -25,6 +25,7 @@ FORMS = {
     "column": Column(0.5, 8.0),
     "ship": ShipHull(30.0, 5.0),
     "block": Block(30.0, 5.0, 2.0),
+    "torpedo": TorpedoHull(1.3, 0.2),
     "cone": Cone(0.4, 1.0, 2.0),
     "line": Line(BENT, 0.1),
     "tube": Tube(BENT, 0.3),
@@ -59,6 +60,11 @@ def test_forms_have_their_sizes() -> None:
     block = mesh_of(FORMS["block"]).vertices
     assert_allclose(np.ptp(block, axis=0), [30.0, 5.0, 2.0])
     assert_allclose(block.mean(axis=0), 0.0, atol=1e-9)
+    torpedo = mesh_of(FORMS["torpedo"]).vertices
+    assert_allclose(np.ptp(torpedo[:, 0]), 1.3, rtol=0.05)
+    radii = np.hypot(torpedo[:, 1], torpedo[:, 2])
+    assert np.isclose(radii, 0.1).sum() > 20  # of the hull, from which the fins stick out
+    assert radii.max() < 0.25
     cone = mesh_of(FORMS["cone"]).vertices
     radii = np.hypot(cone[:, 1], cone[:, 2])
     assert_allclose(radii[np.isclose(cone[:, 0], 0.0)], 0.4)

@@ -6,10 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from dq_marine.task.things import Block, Column, Cone, Form, Line, Relief, ShipHull, Tube
+from dq_marine.task.things import Block, Column, Cone, Form, Line, Relief, ShipHull, TorpedoHull, Tube
 from dq_marine.viewer.meshes import Mesh, cuboid, cylinder, grid_triangles, revolved
 from dq_marine.viewer.models.paint import SIGNAL_ORANGE
 from dq_marine.viewer.models.ship_model import HULL, ship_parts
+from dq_marine.viewer.models.torpedo_model import HULL as TORPEDO_HULL
+from dq_marine.viewer.models.torpedo_model import torpedo_parts
 from dq_marine.viewer.placement import Y_AXIS, Y_TO_X, Placement, rotation_between
 from dq_marine.viewer.snapshot import FloatArray, Shape
 from dq_marine.viewer.transport.three_json import Look, Painted
@@ -49,6 +51,8 @@ def thing_model(form: Form) -> tuple[list[Painted], Look]:
             return _column(form), SOLID
         case ShipHull():
             return _ship(form), SOLID
+        case TorpedoHull():
+            return _torpedo(form), SOLID
         case Cone():
             return _cone(form), HOLLOW
         case Block():
@@ -75,6 +79,12 @@ def _ship(form: ShipHull) -> list[Painted]:
     shape = Shape(form.length, form.width, height, kind="ship", draft=draft)
     parts = [painted for part in ship_parts(shape).values() for painted in part]
     return [replace(one, color=GREY) if one.color == HULL else one for one in parts]
+
+
+def _torpedo(form: TorpedoHull) -> list[Painted]:
+    shape = Shape(form.length, form.width, form.width, kind="torpedo")
+    parts = [painted for part in torpedo_parts(shape).values() for painted in part]
+    return [replace(one, color=GREY) if one.color == TORPEDO_HULL else one for one in parts]
 
 
 def _cone(form: Cone) -> list[Painted]:

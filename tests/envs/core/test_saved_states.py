@@ -21,6 +21,26 @@ def env(module_env):
     return module_env
 
 
+def test_what_is_foreseen_comes_true_and_changes_nothing(env):
+    before = env.get_state()
+    ahead = env.foreseen(np.full(6, 0.3))
+    after = env.get_state()
+    assert all(np.array_equal(before[name], after[name]) for name in before if name != "random")
+    assert before["random"] == after["random"]
+    env.step(np.full(6, 0.3))
+    assert ahead == env.motion
+
+
+@pytest.mark.sweep
+def test_what_is_foreseen_takes_the_random_numbers_that_the_step_will_take():
+    env = StationKeepingEnv(sensors="auv", current={"mean": [0.2, 0.0, 0.0], "standard_deviation": 0.2})
+    env.reset(seed=0)
+    for action in np.random.default_rng(0).uniform(-1.0, 1.0, (20, 6)):
+        ahead = env.foreseen(action)
+        env.step(action)
+        assert ahead == env.motion
+
+
 def changed(state, name, change):
     return state | {
         name: change(np.array(state[name]) if isinstance(state[name], np.ndarray) else state[name])
