@@ -17,7 +17,14 @@ from dq_marine.algebra.dual_quaternion import (
     pose_from_parts,
     pose_renormalise,
 )
-from dq_marine.algebra.quaternion import Quaternion, quaternion_add, quaternion_dot, quaternion_scale
+from dq_marine.algebra.quaternion import (
+    Quaternion,
+    quaternion_conjugate,
+    quaternion_dot,
+    quaternion_multiply,
+    quaternion_scale,
+    quaternion_vector,
+)
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.spatial import (
     Spatial,
@@ -31,12 +38,13 @@ from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.galerkin_curve import (
+    Momentum,
     Rates,
     attitude_from,
     change_squared,
-    conjugate_product_vector,
     momentum_from,
-    multiply_vector,
+    outward,
+    rates_of,
     turned,
     turned_back,
 )
@@ -83,39 +91,43 @@ class Flight(NamedTuple):
 
 
 def make_forced_node(
-    forces_at: StageForces, carry: WaterCarry
+    stages: int, forces_at: StageForces, carry: WaterCarry
 ) -> Callable[[Flight, float, ForcedRates], ForcedNode]:
     """Return (flight, part of the step that is over, half the sums of the rates) -> the node.
 
     `carry` is what moving water does to a pose.
     """
+    plain = stages < 3
 
     def forced_node(flight: Flight, part: float, half_sums: ForcedRates) -> ForcedNode:
         parameters, h, start = flight.parameters, flight.h, flight.start
         gamma = attitude_from(half_sums.turning)  # (V1)
         pi = momentum_from(start.angular, half_sums.forcing)
         way = half_sums.travelling  # (V5)
-        length_squared = quaternion_dot(gamma, gamma)
-        twice_gain = 2.0 / length_squared
-        linear = turned_back(gamma, twice_gain, add(start.linear, half_sums.pushing))  # (V2)
-        momentum = Spatial(conjugate_product_vector(gamma, pi), linear)
-        twist = matrix6_transform(parameters.inertia.inverse, momentum)  # (V3)
-        unit = quaternion_scale(1.0 / math.sqrt(length_squared), gamma)
+        shrink = 1.0 / math.sqrt(quaternion_dot(gamma, gamma))
+        unit, gain = quaternion_scale(shrink, gamma), shrink * shrink
+        e = outward(plain, gain, gamma)
+        linear = turned_back(unit, 2.0, add(start.linear, half_sums.pushing))
+        momentum = Momentum(quaternion_multiply(quaternion_conjugate(e), pi), linear)  # (V2)
+        whole = Spatial(quaternion_vector(momentum.turning), linear)
+        twist = matrix6_transform(parameters.inertia.inverse, whole)  # (V3)
         pose = dual_multiply(flight.pose, pose_from_parts(unit, way))
         there = carry(parameters.water, flight.time, part * h, pose)
         acting = forces_at(
             parameters, there, spatial_scale(1.0 / h, twist), flight.time + part * h, flight.wrench
         )
         moment, force = scale(h * h, acting.angular), scale(h * h, acting.linear)
-        whole = scale(twice_gain, add(cross(linear, twist.linear), moment))
-        rates = ForcedRates(  # (V4)
-            multiply_vector(gamma, twist.angular),
-            quaternion_add(multiply_vector(pi, twist.angular), multiply_vector(gamma, whole)),
-            scale(2.0, turned(gamma, twice_gain, force)),
-            scale(2.0, turned(gamma, twice_gain, twist.linear)),
+        free = rates_of(
+            plain, gain, e, momentum, twist, scale(2.0, add(cross(linear, twist.linear), moment))
+        )  # (V4)
+        rates = ForcedRates(
+            free.turning,
+            free.forcing,
+            scale(2.0, turned(unit, 2.0, force)),
+            scale(2.0, turned(unit, 2.0, twist.linear)),
         )
         about_start = cross(way, scale(0.5, rates.pushing))
-        return ForcedNode(rates, add(turned(gamma, twice_gain, moment), about_start))
+        return ForcedNode(rates, add(turned(unit, 2.0, moment), about_start))
 
     return forced_node
 
@@ -141,7 +153,7 @@ def make_forced_step(method: Collocation, forces_at: StageForces, carry: WaterCa
     """
     weights, nodes, halved = method.weights, method.nodes, half_matrix(method)
     first_nodes = make_first_nodes(method)
-    forced_node = make_forced_node(forces_at, carry)
+    forced_node = make_forced_node(len(weights), forces_at, carry)
 
     def sweep(flight: Any, rates: ForcedRates) -> Any:
         parts = stage_constants(nodes, flight.start.angular[0])

@@ -21,7 +21,7 @@ from dq_marine.algebra.stages import each_stage, stage_constants, stage_product,
 from dq_marine.algebra.vector3 import dot
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift_report import SolverReport, accepted_squared, converged_squared
-from dq_marine.integrator.galerkin_curve import Rates, change_squared, first_node, turning_from
+from dq_marine.integrator.galerkin_curve import Rates, change_squared, make_first_node, turning_from
 
 MAX_SWEEPS = 40
 UNTESTED = 1  # sweeps before changes are looked at
@@ -92,7 +92,7 @@ def momentum_and_twist(inverse: Matrix6, start: Spatial, change: Spatial) -> tup
 def make_first_nodes(method: Collocation) -> Callable[[Matrix6, Spatial, Spatial], Any]:
     """Return (M^-1, start, wrench) -> nodes of a curve that nearly follows Kirchhoff's equations in the body frame."""
     weights, nodes, matrix = method.weights, method.nodes, method.matrix
-    halved = half_matrix(method)
+    halved, first_node = half_matrix(method), make_first_node(len(weights))
 
     def first_nodes(inverse: Matrix6, start: Spatial, wrench: Spatial) -> Any:
         nothing = spatial_scale(0.0, start)
@@ -106,7 +106,8 @@ def make_first_nodes(method: Collocation) -> Callable[[Matrix6, Spatial, Spatial
         turning = each_stage(weights, quaternion_from_vector, (twist.angular,))
         for _ in range(TURNING_SWEEPS):
             turning = each_stage(weights, turning_from, (stage_product(halved, turning), twist.angular))
-        guess = (inverse, start.linear, stage_product(halved, turning), there.angular)
+        sigma = stage_product(matrix, each_stage(weights, dot, (there.angular, twist.angular)))
+        guess = (inverse, start.linear, stage_product(halved, turning), there.angular, sigma)
         return each_stage(weights, first_node, guess)
 
     return first_nodes
