@@ -91,6 +91,11 @@ def momentum_from(a: Vector3, half_sum: Quaternion) -> Quaternion:
     return (half_sum[0], a[0] + half_sum[1], a[1] + half_sum[2], a[2] + half_sum[3])
 
 
+def is_plain(stages: int) -> bool:
+    """Whether e is gamma (V4): with one node, so that the step is the midpoint scheme's, and with two."""
+    return stages < 3
+
+
 def outward(plain: bool, gain: float, gamma: Quaternion) -> Quaternion:
     """Return e (V4), with 1/|gamma|^2."""
     return gamma if plain else quaternion_scale(gain, gamma)
@@ -108,45 +113,52 @@ def rates_of(
     return Rates(multiply_vector(e, omega), quaternion_scale(gain, forcing) if plain else forcing)
 
 
+def momentum_at(plain: bool, gain: float, gamma: Quaternion, pi: Quaternion, linear: Vector3) -> Momentum:
+    """Return the momentum in the body frame (V2), with 1/|gamma|^2, from the linear one in the step's first frame."""
+    turning = quaternion_multiply(quaternion_conjugate(gamma), pi)
+    return Momentum(
+        turning if plain else quaternion_scale(gain, turning), turned_back(gamma, gain + gain, linear)
+    )
+
+
+def twist_at(inverse: Matrix6, momentum: Momentum) -> Spatial:
+    """Return (omega, v) at a node (V3)."""
+    return matrix6_transform(inverse, Spatial(quaternion_vector(momentum.turning), momentum.linear))
+
+
+def node_of(plain: bool, inverse: Matrix6, gamma: Quaternion, gain: float, momentum: Momentum) -> Node:
+    """Return the node of a free step at gamma, with 1/|gamma|^2, where the momentum is known."""
+    twist = twist_at(inverse, momentum)
+    moment = cross(momentum.linear, twist.linear)
+    e = outward(plain, gain, gamma)
+    return Node(rates_of(plain, gain, e, momentum, twist, add(moment, moment)), gamma, twist.linear)
+
+
 def make_node_at(stages: int) -> Callable[[Matrix6, Spatial, Rates], Node]:
     """Return (M^-1, scaled momenta at the start, half the sums of the rates) -> a node of a free step."""
-    plain = stages < 3
+    plain = is_plain(stages)
 
     def node_at(inverse: Matrix6, start: Spatial, half_sums: Rates) -> Node:
         gamma = attitude_from(half_sums.turning)  # (V1)
         pi = momentum_from(start.angular, half_sums.forcing)
         gain = 1.0 / quaternion_dot(gamma, gamma)
-        e = outward(plain, gain, gamma)
-        linear = turned_back(gamma, gain + gain, start.linear)
-        momentum = Momentum(quaternion_multiply(quaternion_conjugate(e), pi), linear)  # (V2)
-        return node_of(plain, inverse, gamma, gain, e, momentum)
+        return node_of(plain, inverse, gamma, gain, momentum_at(plain, gain, gamma, pi, start.linear))
 
     return node_at
-
-
-def node_of(
-    plain: bool, inverse: Matrix6, gamma: Quaternion, gain: float, e: Quaternion, momentum: Momentum
-) -> Node:
-    """Return the node of a free step at gamma, with 1/|gamma|^2 and e, where the momentum is known."""
-    linear = momentum.linear
-    twist = matrix6_transform(inverse, Spatial(quaternion_vector(momentum.turning), linear))  # (V3)
-    moment = cross(linear, twist.linear)
-    return Node(rates_of(plain, gain, e, momentum, twist, add(moment, moment)), gamma, twist.linear)
 
 
 def make_first_node(stages: int) -> Callable[[Matrix6, Vector3, Quaternion, Vector3, float], Node]:
     """Return (M^-1, b at the start, half the sum of Gamma, a, the sum of a . omega) -> a first guess of a node.
 
-    a is the angular momentum in the body frame, and the last sum what sigma comes to.
+    a is the angular momentum in the body frame, and the last sum what sigma comes to but for one or two nodes.
     """
-    plain = stages < 3
+    plain = is_plain(stages)
 
     def first_node(inverse: Matrix6, b: Vector3, half_sum: Quaternion, a: Vector3, sigma: float) -> Node:
         gamma = attitude_from(half_sum)
         gain = 1.0 / quaternion_dot(gamma, gamma)
-        linear = turned_back(gamma, gain + gain, b)
-        momentum = Momentum((0.0 * sigma if plain else sigma, a[0], a[1], a[2]), linear)
-        return node_of(plain, inverse, gamma, gain, outward(plain, gain, gamma), momentum)
+        turning = (0.0 * sigma if plain else sigma, a[0], a[1], a[2])
+        return node_of(plain, inverse, gamma, gain, Momentum(turning, turned_back(gamma, gain + gain, b)))
 
     return first_node
 
