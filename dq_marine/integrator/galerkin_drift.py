@@ -23,7 +23,7 @@ from dq_marine.algebra.stages import each_stage, stage_product, stage_sum
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift import Drift, transport_momentum
 from dq_marine.integrator.drift_report import DriftReport, is_energy_kept
-from dq_marine.integrator.galerkin_curve import Rates, attitude_from, node_at, travelled
+from dq_marine.integrator.galerkin_curve import Node, attitude_from, make_node_at, travelled
 from dq_marine.integrator.galerkin_sweeps import (
     half_matrix,
     make_first_nodes,
@@ -39,11 +39,11 @@ def make_galerkin_drift(stages: int) -> Drift:
     """Return (inertia, h, pose, momentum) -> (pose, momentum, report): the step with so many nodes."""
     method = gauss(stages)
     weights, halved = method.weights, half_matrix(method)
-    first_nodes = make_first_nodes(method)
+    first_nodes, node_at = make_first_nodes(method), make_node_at(stages)
 
-    def sweep(given: Any, rates: Rates) -> Any:
+    def sweep(given: Any, now: Node) -> Any:
         inverse, start = given
-        return each_stage(weights, node_at, (inverse, start, stage_product(halved, rates)))
+        return each_stage(weights, node_at, (inverse, start, stage_product(halved, now.rates)))
 
     sweeps = make_sweeps(method, sweep, relative_change_squared)
 

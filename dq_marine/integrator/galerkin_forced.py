@@ -17,7 +17,11 @@ from dq_marine.algebra.dual_quaternion import (
     pose_from_parts,
     pose_renormalise,
 )
-from dq_marine.algebra.quaternion import Quaternion, quaternion_add, quaternion_dot, quaternion_scale
+from dq_marine.algebra.quaternion import (
+    Quaternion,
+    quaternion_dot,
+    quaternion_scale,
+)
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.spatial import (
     Spatial,
@@ -31,14 +35,18 @@ from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.galerkin_curve import (
+    Momentum,
     Rates,
     attitude_from,
     change_squared,
-    conjugate_product_vector,
+    is_plain,
+    momentum_at,
     momentum_from,
     multiply_vector,
+    outward,
+    rates_of,
     turned,
-    turned_back,
+    twist_at,
 )
 from dq_marine.integrator.galerkin_sweeps import (
     Scales,
@@ -62,10 +70,28 @@ class ForcedRates(NamedTuple):
 
 
 class ForcedNode(NamedTuple):
-    """A node of a forced step: its rates, and its moment times h^2 about the step's start, in the frame there."""
+    """A node of a forced step.
+
+    Attributes:
+        rates: at the node.
+        moment: times h^2, about the step's start, in the frame there.
+        attitude: gamma.
+        gain: 1/|gamma|^2.
+    """
 
     rates: ForcedRates
     moment: Vector3
+    attitude: Quaternion
+    gain: float
+
+
+class Motion(NamedTuple):
+    """How a body moves at a node: its momentum and twist, and the rates 2 gamma' and 2 R v that follow from them."""
+
+    momentum: Momentum
+    twist: Spatial
+    turning: Quaternion
+    travelling: Vector3
 
 
 class Flight(NamedTuple):
@@ -82,48 +108,59 @@ class Flight(NamedTuple):
     wrench: Spatial
 
 
+def make_motion(stages: int) -> Callable[[Flight, Quaternion, float, Quaternion, Vector3], Motion]:
+    """Return (flight, gamma, 1/|gamma|^2, half the sums of Pi and of 2 R f) -> the motion at a node."""
+    plain = is_plain(stages)
+
+    def motion(
+        flight: Flight, gamma: Quaternion, gain: float, forcing: Quaternion, pushing: Vector3
+    ) -> Motion:
+        pi, linear = momentum_from(flight.start.angular, forcing), add(flight.start.linear, pushing)  # (V1)
+        momentum = momentum_at(plain, gain, gamma, pi, linear)
+        twist = twist_at(flight.parameters.inertia.inverse, momentum)
+        turning = multiply_vector(outward(plain, gain, gamma), twist.angular)
+        return Motion(momentum, twist, turning, scale(2.0, turned(gamma, gain + gain, twist.linear)))
+
+    return motion
+
+
 def make_forced_node(
-    forces_at: StageForces, carry: WaterCarry
-) -> Callable[[Flight, float, ForcedRates], ForcedNode]:
-    """Return (flight, part of the step that is over, half the sums of the rates) -> the node.
+    stages: int, forces_at: StageForces, carry: WaterCarry
+) -> Callable[[Flight, float, Motion, Quaternion, Vector3], ForcedNode]:
+    """Return (flight, part of the step that is over, motion, half the sums of its rates) -> the node.
 
     `carry` is what moving water does to a pose.
     """
+    plain = is_plain(stages)
 
-    def forced_node(flight: Flight, part: float, half_sums: ForcedRates) -> ForcedNode:
-        parameters, h, start = flight.parameters, flight.h, flight.start
-        gamma = attitude_from(half_sums.turning)  # (V1)
-        pi = momentum_from(start.angular, half_sums.forcing)
-        way = half_sums.travelling  # (V5)
-        length_squared = quaternion_dot(gamma, gamma)
-        twice_gain = 2.0 / length_squared
-        linear = turned_back(gamma, twice_gain, add(start.linear, half_sums.pushing))  # (V2)
-        momentum = Spatial(conjugate_product_vector(gamma, pi), linear)
-        twist = matrix6_transform(parameters.inertia.inverse, momentum)  # (V3)
-        unit = quaternion_scale(1.0 / math.sqrt(length_squared), gamma)
+    def forced_node(
+        flight: Flight, part: float, motion: Motion, turn: Quaternion, way: Vector3
+    ) -> ForcedNode:
+        parameters, h, momentum, twist = flight.parameters, flight.h, motion.momentum, motion.twist
+        gamma = attitude_from(turn)  # (V1); way: (V5)
+        shrink = 1.0 / math.sqrt(quaternion_dot(gamma, gamma))
+        unit, gain = quaternion_scale(shrink, gamma), shrink * shrink
         pose = dual_multiply(flight.pose, pose_from_parts(unit, way))
         there = carry(parameters.water, flight.time, part * h, pose)
         acting = forces_at(
             parameters, there, spatial_scale(1.0 / h, twist), flight.time + part * h, flight.wrench
         )
         moment, force = scale(h * h, acting.angular), scale(h * h, acting.linear)
-        whole = scale(twice_gain, add(cross(linear, twist.linear), moment))
-        rates = ForcedRates(  # (V4)
-            multiply_vector(gamma, twist.angular),
-            quaternion_add(multiply_vector(pi, twist.angular), multiply_vector(gamma, whole)),
-            scale(2.0, turned(gamma, twice_gain, force)),
-            scale(2.0, turned(gamma, twice_gain, twist.linear)),
-        )
-        about_start = cross(way, scale(0.5, rates.pushing))
-        return ForcedNode(rates, add(turned(gamma, twice_gain, moment), about_start))
+        whole = scale(2.0, add(cross(momentum.linear, twist.linear), moment))
+        free = rates_of(plain, gain, outward(plain, gain, gamma), momentum, twist, whole)  # (V4)
+        push = turned(unit, 2.0, force)
+        rates = ForcedRates(motion.turning, free.forcing, scale(2.0, push), motion.travelling)
+        return ForcedNode(rates, add(turned(unit, 2.0, moment), cross(way, push)), gamma, gain)
 
     return forced_node
 
 
-def first_forced_node(rates: Rates, moment: Vector3, force: Vector3, velocity: Vector3) -> ForcedNode:
-    """Return a guess of a node from the rates of free motion, and the wrench and velocity at the start."""
+def first_forced_node(
+    rates: Rates, attitude: Quaternion, moment: Vector3, force: Vector3, velocity: Vector3
+) -> ForcedNode:
+    """Return a guess of a node from the rates of free motion, gamma, and the wrench and velocity at the start."""
     forced = ForcedRates(rates.turning, rates.forcing, scale(2.0, force), scale(2.0, velocity))
-    return ForcedNode(forced, moment)
+    return ForcedNode(forced, moment, attitude, 1.0 / quaternion_dot(attitude, attitude))
 
 
 def forced_change_squared(scales: Scales, after: ForcedRates, before: ForcedRates) -> float:
@@ -141,11 +178,16 @@ def make_forced_step(method: Collocation, forces_at: StageForces, carry: WaterCa
     """
     weights, nodes, halved = method.weights, method.nodes, half_matrix(method)
     first_nodes = make_first_nodes(method)
-    forced_node = make_forced_node(forces_at, carry)
+    motion_at = make_motion(len(weights))
+    forced_node = make_forced_node(len(weights), forces_at, carry)
 
-    def sweep(flight: Any, rates: ForcedRates) -> Any:
+    def sweep(flight: Any, now: Any) -> Any:
         parts = stage_constants(nodes, flight.start.angular[0])
-        return each_stage(weights, forced_node, (flight, parts, stage_product(halved, rates)))
+        forcing = stage_product(halved, now.rates.forcing)
+        pushing = stage_product(halved, now.rates.pushing)
+        motion = each_stage(weights, motion_at, (flight, now.attitude, now.gain, forcing, pushing))
+        turn, way = stage_product(halved, motion.turning), stage_product(halved, motion.travelling)
+        return each_stage(weights, forced_node, (flight, parts, motion, turn, way))
 
     sweeps = make_sweeps(method, sweep, forced_change_squared)
 
@@ -163,7 +205,7 @@ def make_forced_step(method: Collocation, forces_at: StageForces, carry: WaterCa
         acting = forces_at(parameters, pose, spatial_scale(1.0 / h, twist), time, wrench)
         acting = spatial_scale(h * h, acting)
         guess = first_nodes(inverse, start, acting)
-        pushes = (guess.rates, acting.angular, acting.linear, twist.linear)
+        pushes = (guess.rates, guess.attitude, acting.angular, acting.linear, twist.linear)
         first = each_stage(weights, first_forced_node, pushes)
         node, report = sweeps(flight, first, scales_of(inverse, start, twist, acting))
         sums = stage_sum(weights, node.rates)

@@ -21,17 +21,16 @@ from dq_marine.algebra.stages import each_stage, stage_constants, stage_product,
 from dq_marine.algebra.vector3 import dot
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift_report import SolverReport, accepted_squared, converged_squared
-from dq_marine.integrator.galerkin_curve import Rates, change_squared, first_node, turning_from
+from dq_marine.integrator.galerkin_curve import Rates, change_squared, make_first_node, turning_from
 
 MAX_SWEEPS = 40
 UNTESTED = 1  # sweeps before changes are looked at
 HOPELESS = 1e4  # squared change of a sweep that diverges
 PATIENCE = (
-    11  # sweeps after which the squared change must be below the next number: pieces of the step cost less
+    8  # sweeps after which the squared change must be below the next number: pieces of the step cost less
 )
-PROMISING = 1e-9
+PROMISING = 1e-5
 KIRCHHOFF_SWEEPS = 3  # for the first guess: more would not bring it closer than both collocations differ
-TURNING_SWEEPS = 2
 SLOWEST_TRUSTED = (
     0.01  # of the squared change between two sweeps: it is not taken to shrink faster than tenfold
 )
@@ -77,10 +76,9 @@ def relative_change_squared(scales: Scales, after: Rates, before: Rates) -> floa
     return scales.turning * turned + scales.forcing * change_squared(after.forcing, before.forcing)
 
 
-def collocation_rate(inverse: Matrix6, start: Spatial, wrench: Spatial, change: Spatial) -> Spatial:
-    """Return mu' of Kirchhoff's equations under a wrench, where the momentum has changed since the start."""
-    there = spatial_add(start, change)
-    return spatial_add(momentum_bracket(matrix6_transform(inverse, there), there), wrench)
+def kirchhoff_rate(momentum: Spatial, twist: Spatial, wrench: Spatial) -> Spatial:
+    """Return mu' of Kirchhoff's equations under a wrench."""
+    return spatial_add(momentum_bracket(twist, momentum), wrench)
 
 
 def momentum_and_twist(inverse: Matrix6, start: Spatial, change: Spatial) -> tuple[Spatial, Spatial]:
@@ -92,21 +90,19 @@ def momentum_and_twist(inverse: Matrix6, start: Spatial, change: Spatial) -> tup
 def make_first_nodes(method: Collocation) -> Callable[[Matrix6, Spatial, Spatial], Any]:
     """Return (M^-1, start, wrench) -> nodes of a curve that nearly follows Kirchhoff's equations in the body frame."""
     weights, nodes, matrix = method.weights, method.nodes, method.matrix
-    halved = half_matrix(method)
+    halved, first_node = half_matrix(method), make_first_node(len(weights))
 
     def first_nodes(inverse: Matrix6, start: Spatial, wrench: Spatial) -> Any:
-        nothing = spatial_scale(0.0, start)
-        slope = collocation_rate(inverse, start, wrench, nothing)
+        slope = kirchhoff_rate(start, matrix6_transform(inverse, start), wrench)
         change = each_stage(weights, spatial_scale, (stage_constants(nodes, start.angular[0]), slope))
-        for _ in range(KIRCHHOFF_SWEEPS):
-            change = stage_product(
-                matrix, each_stage(weights, collocation_rate, (inverse, start, wrench, change))
-            )
         there, twist = each_stage(weights, momentum_and_twist, (inverse, start, change))
         turning = each_stage(weights, quaternion_from_vector, (twist.angular,))
-        for _ in range(TURNING_SWEEPS):
+        for _ in range(KIRCHHOFF_SWEEPS):
+            change = stage_product(matrix, each_stage(weights, kirchhoff_rate, (there, twist, wrench)))
+            there, twist = each_stage(weights, momentum_and_twist, (inverse, start, change))
             turning = each_stage(weights, turning_from, (stage_product(halved, turning), twist.angular))
-        guess = (inverse, start.linear, stage_product(halved, turning), there.angular)
+        sigma = stage_product(matrix, each_stage(weights, dot, (there.angular, twist.angular)))
+        guess = (inverse, start.linear, stage_product(halved, turning), there.angular, sigma)
         return each_stage(weights, first_node, guess)
 
     return first_nodes
@@ -131,7 +127,7 @@ def make_sweeps(
         solved = spread(False, scales.turning)
         count = 0
         for taken in range(MAX_SWEEPS):
-            following = sweep(given, now.rates)
+            following = sweep(given, now)
             count += 1
             if taken >= UNTESTED:
                 changes = stage_sum(
