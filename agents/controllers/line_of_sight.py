@@ -54,7 +54,6 @@ class LineOfSight:
         off: Offset,
     ) -> Order:
         """Return the order, as `order` does, for vectors ahead, to starboard and down of a level vehicle."""
-        level, upright = self._sights or self._make_sights(speed)
         along = math.hypot(way[0], way[1])
         turning = speed * (way[0] * bend[1] - way[1] * bend[0]) / along / self._pilot.length
         return self.order_along(attitude, speed, way, turning, off)
