@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, get_args
 
 from rich.table import Table
 
-from dq_marine.envs.core.definition import TaskDefinition
+from dq_marine.envs.core.definition import ForVehicle, TaskDefinition
 from dq_marine.envs.core.registry import registered_tasks, short_name
 from dq_marine.envs.scenarios.files import scenarios_of
 from dq_marine.physics.fields import Motion
@@ -161,6 +161,8 @@ def _said(values: Mapping[str, Any]) -> str:
 
 def _value(value: Any) -> str:
     """Return a value as Python has it, its numbers with at most six digits."""
+    if isinstance(value, ForVehicle):
+        return repr(value)
     if isinstance(value, float):
         return f"{value:.6g}" if value % 1.0 else repr(value)
     if isinstance(value, Mapping):

@@ -8,6 +8,7 @@ from gymnasium.error import ResetNeeded
 
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.envs.core.registry import registered_tasks, task_called
+from dq_marine.envs.core.shared_memory import parameters_of, task_memory
 from dq_marine.task.docks import Contact
 
 
@@ -31,7 +32,7 @@ def test_a_vehicle_in_a_pillar_has_hit_it():
 
 @pytest.mark.parametrize("struck", [0.0, 1.0])
 def test_a_dock_is_hit_where_it_is_struck_and_not_where_a_bow_is_docked(struck):
-    _, memory = begun("dq_marine/Docking-v0")._task_numbers
+    memory = task_memory(begun("dq_marine/Docking-v0"))
     met = memory._replace(contact=Contact(0.0, 1.0 - struck, struck, 0.2))
     assert task_called("Docking").collided(None, met) is (struck > 0.5)
 
@@ -39,7 +40,7 @@ def test_a_dock_is_hit_where_it_is_struck_and_not_where_a_bow_is_docked(struck):
 def test_vessels_collide_within_the_safe_distance():
     """Of the same vessels, with the distance of the task and with one that reaches beyond them."""
     env = begun("dq_marine/Encounter-v0")
-    own, memory = env._task_numbers
+    own, memory = parameters_of(env).task, task_memory(env)
     near = own._replace(safe=1e9)
     assert task_called("Encounter").collided(own, memory) is False
     assert task_called("Encounter").collided(near, memory) is True
