@@ -14,13 +14,14 @@ from dq_marine.vehicles import load_vehicle, vehicle_names
 
 TASKS = {short_name(one): one for one in registered_tasks() if one.id.startswith("dq_marine/")}
 DEFAULTS = [(name, task.vehicle) for name, task in TASKS.items()]
-FLIGHTS = [
-    (name, vehicle)
-    for i, (name, task) in enumerate(TASKS.items())
-    for j, vehicle in enumerate(vehicle_names())
-    if task.unsuitable(load_vehicle(vehicle)) is None and ((i + j) % 3 == 0 or (name, vehicle) in DEFAULTS)
-]
-"""Every task with every third vehicle that it suits, and every vehicle with some task: compiling for lanes is long.
+SUITED = {
+    vehicle: [name for name, task in TASKS.items() if task.unsuitable(load_vehicle(vehicle)) is None]
+    for vehicle in vehicle_names()
+}
+FLIGHTS = sorted(
+    {*DEFAULTS, *((own[i % len(own)], vehicle) for i, (vehicle, own) in enumerate(SUITED.items()))}
+)
+"""Every task with its own vehicle, and every vehicle with one of the tasks that it suits: compiling for lanes is long.
 
 `tests/envs/core/test_registry.py` flies every task with every vehicle, one by one.
 """
