@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from dq_marine.checks import finite_array, shown, unit_quaternion
 from dq_marine.errors import InvalidInputError
+from dq_marine.physics.waves.sea import Sea
 from dq_marine.task.things import Form, Thing
 
 FloatArray = NDArray[np.float64]
@@ -46,6 +47,8 @@ class Snapshot:
         goal_position_ned: where the vehicle should go [m], shape (3,), or None without a goal.
         goal_quaternion_body_to_ned: the attitude wanted there, shape (4,), or None for any attitude.
         things: what is around the vehicle.
+        sea: the waves; None for a calm surface.
+        sea_start: time of the sea when `time` is 0 [s].
 
     Raises:
         InvalidInputError: a wrong size, a value that is not finite, or a quaternion that is not unit.
@@ -59,10 +62,15 @@ class Snapshot:
     goal_position_ned: FloatArray | None = None
     goal_quaternion_body_to_ned: FloatArray | None = None
     things: tuple[Thing, ...] = ()
+    sea: Sea | None = None
+    sea_start: float = 0.0
 
     def __post_init__(self) -> None:
-        if not math.isfinite(self.time):
-            raise InvalidInputError(f"time is {self.time}; give a finite simulated time in seconds")
+        for name in ("time", "sea_start"):
+            if not math.isfinite(getattr(self, name)):
+                raise InvalidInputError(
+                    f"{name} is {getattr(self, name)}; give a finite simulated time in seconds"
+                )
         for name, size in SNAPSHOT_ARRAYS.items():
             value = getattr(self, name)
             if value is None and name.startswith("goal_"):

@@ -26,6 +26,8 @@ from dq_marine.envs.core.vehicle_pool import prepared_pool, wrench_limits_of
 from dq_marine.errors import InvalidInputError, UnsuitableVehicleWarning
 from dq_marine.integrator.step import StepParameters, make_motion
 from dq_marine.physics.current.build import draw_of
+from dq_marine.physics.waves.loads import WaveLoads
+from dq_marine.physics.waves.sea import Sea
 from dq_marine.simulation.settings import Settings, VehicleLike
 from dq_marine.task.episode import EpisodeParameters, episode_task
 from dq_marine.task.period import draws_of_period
@@ -130,6 +132,12 @@ class ComposedTask:
         self.current_draw = draw_of(self.scene.current)
         self.time_varying = any(part.changes for part in self.scene.weather)
         self._compose()
+
+    @property
+    def sea(self) -> Sea | None:
+        """The waves of the scene's weather, under its gravity; None for a calm surface."""
+        seas = [part.sea for part in self.scene.weather if isinstance(part, WaveLoads)]
+        return seas[0].in_gravity(self.scene.vehicle.gravity) if seas else None
 
     @property
     def vehicle(self) -> Vehicle:

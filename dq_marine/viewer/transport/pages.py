@@ -165,11 +165,12 @@ LIVE_PAGE = _page(
     CAPTION.replace("$title", "") + PANEL_STYLE + _file("panel.html"),
     SERVED_MESHCAT,
     _inline(LIVE_SCRIPT + CAPTION_SCRIPT),
+    _inline(_file("sea.js")),
     _inline(_file("glide.js")),
     _inline(_file("panel.js")),
     _inline(_file("view.js")),
 )
-CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT))
+CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT), _inline(_file("sea.js")))
 
 REPLAY_DATA_SCRIPT = """
   const messages = $messages;
@@ -183,6 +184,7 @@ REPLAY_PAGE = Template(
         _inline("$meshcat"),
         _inline(REPLAY_DATA_SCRIPT),
         _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
+        _inline(_file("sea.js")),
     )
 )
 """The page of a replay, which needs nothing from outside: meshcat and all data go into it."""

@@ -90,7 +90,7 @@ def surface(
     mesh: Mesh,
     colors: FloatArray,
     look: Look,
-    user_data: Mapping[str, float] | None = None,
+    user_data: Mapping[str, Any] | None = None,
 ) -> Json:
     """A surface.
 
@@ -99,7 +99,7 @@ def surface(
         mesh: vertices, normals and triangles.
         colors: red, green, blue at the vertices, shape (n, 3), within [0, 1].
         look: of the whole surface.
-        user_data: numbers for the page to read.
+        user_data: for the page to read.
     """
     geometry = _geometry(position=mesh.vertices, normal=mesh.normals, color=colors)
     geometry["data"]["index"] = _typed_array(mesh.triangles, np.uint32)
@@ -145,7 +145,7 @@ def _object(
     kind: str,
     geometry: Json,
     material: Json,
-    user_data: Mapping[str, float] | None = None,
+    user_data: Mapping[str, Any] | None = None,
 ) -> Json:
     names = {"geometry": f"{path}:geometry", "material": f"{path}:material"}
     return {

@@ -19,6 +19,7 @@ import math
 from collections.abc import Sequence
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.physics.waves.sea import Sea
 from dq_marine.task.things import Relief
 from dq_marine.viewer.models.vehicle_model import (
     GOAL_BALL,
@@ -53,6 +54,7 @@ from dq_marine.viewer.world.sea import (
     draw_shadow,
     draw_specks,
     draw_surface,
+    draw_waves,
     nearest_period,
 )
 from dq_marine.viewer.world.things import Things
@@ -87,6 +89,7 @@ class Drawing:
         self._given_floor_depth = floor_depth
         self._floor_depth: float | None = None
         self._things = Things()
+        self._sea: tuple[Sea | None, float] = (None, 0.0)
 
     def restart(self) -> list[Message]:
         """Forget the previous episode, and take away what was around the vehicle."""
@@ -111,7 +114,17 @@ class Drawing:
 
     def appear(self, snapshot: Snapshot) -> list[Message]:
         """Draw what is around the vehicle at a snapshot and has not been drawn; before its placements."""
-        return self._things.appear(snapshot)
+        return [*self._new_sea(snapshot), *self._things.appear(snapshot)]
+
+    def _new_sea(self, snapshot: Snapshot) -> list[Message]:
+        """Draw the surface, where the sea is not the one that has been drawn."""
+        sea = (snapshot.sea, snapshot.sea_start)
+        if sea == self._sea:
+            return []
+        self._sea, surroundings = sea, surroundings_of(self._shape)
+        if snapshot.sea is None:
+            return draw_surface(self._scale, surroundings)
+        return draw_waves(self._scale, surroundings, snapshot.sea, snapshot.sea_start)
 
     def placements(self, snapshot: Snapshot) -> dict[str, Placement]:
         """Where everything that can move stands at a snapshot, by path."""
@@ -137,6 +150,8 @@ class Drawing:
         floor_depth = self._floor_depth_at(snapshot)
         at_surface = (north, east, 0.0)
         x, y, z = vector3(snapshot.position_ned)
+        if snapshot.sea is not None:  # its mesh is fine where the vehicle is
+            at_surface = (x, y, 0.0)
         just_above_floor = (x, y, floor_depth - 0.02 * self._shape.height)
         return {
             FLOOR: Placement((north, east, floor_depth)),

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from dq_marine.physics.waves.sea import Sea
 from dq_marine.viewer.meshes import Mesh, flat_polygon, grid_triangles, joined
 from dq_marine.viewer.snapshot import FloatArray, Shape
 from dq_marine.viewer.transport.messages import Message, set_object
@@ -36,23 +38,29 @@ PERIODS_EACH_WAY = 3
 DIVISIONS_PER_PERIOD = 6
 SPECKS_PER_BLOCK = 60
 
+FINE_STEPS, FINE_REACH, STRETCH = 52, 0.55, 1.3
+"""Of the mesh of a sea with waves: equal steps each way from the vehicle's origin, how far they go together [lengths of
+the vehicle], and the ratio of each of the next ones, which go to the edge of the floor, to the one before."""
+
 
 @dataclass(frozen=True)
 class SeaScale:
     """Sizes of the surroundings, in proportion to the vehicle.
 
     Attributes:
+        size: of the vehicle [m].
         cell: edge of a cell of the grid on the floor [m].
         speck_block: edge of the cube of water that repeats itself, specks and all [m].
     """
 
+    size: float
     cell: float
     speck_block: float
 
     @classmethod
     def of(cls, shape: Shape) -> SeaScale:
         """The surroundings that suit a vehicle."""
-        return cls(cell=_round_length(shape.size), speck_block=8.0 * shape.size)
+        return cls(size=shape.size, cell=_round_length(shape.size), speck_block=8.0 * shape.size)
 
     @property
     def period(self) -> float:
@@ -82,13 +90,41 @@ def draw_floor(scale: SeaScale, *, afloat: bool) -> list[Message]:
 
 
 def draw_surface(scale: SeaScale, water: Surroundings) -> list[Message]:
-    """The water's surface, to be placed at depth zero."""
-    sheet, look = _sheet(scale), Look(opacity=water.surface_opacity, lit=False, both_sides=True)
+    """The surface of a calm sea, to be placed at depth zero."""
+    sheet = _sheet(scale)
     colors = rgb(water.surface) * _mottle(sheet, scale.period, water.surface_patches)
-    drawn = surface(SURFACE, sheet, colors, look)
+    return [_surface_message(sheet, colors, water, {})]
+
+
+def draw_waves(scale: SeaScale, water: Surroundings, sea: Sea, start: float) -> list[Message]:
+    """The surface of a sea with its waves, to be placed at depth zero above the vehicle; the page raises its points.
+
+    Args:
+        scale: of the surroundings.
+        water: its colours.
+        sea: the waves.
+        start: time of the sea when the clock shows 0 [s].
+    """
+    sheet = _stretched_sheet(scale)
+    wave_number, directions, frequencies = sea.wave_numbers, sea.directions, sea.frequencies
+    columns = (
+        sea.amplitudes,
+        frequencies,
+        wave_number * np.cos(directions),
+        wave_number * np.sin(directions),
+        np.mod(sea.phases + frequencies * start, 2.0 * np.pi),
+    )
+    tint = rgb(water.surface)
+    data = {"waves": np.column_stack(columns).tolist(), "tint": tint.tolist()}
+    return [_surface_message(sheet, np.tile(tint, (len(sheet.vertices), 1)), water, data)]
+
+
+def _surface_message(sheet: Mesh, colors: FloatArray, water: Surroundings, data: dict[str, Any]) -> Message:
+    look = Look(opacity=water.surface_opacity, lit=False, both_sides=True)
+    drawn = surface(SURFACE, sheet, colors, look, data)
     if water.surface_opacity > 0.5:  # before other things that can be seen through, which it must not cover
         drawn["object"]["renderOrder"] = -1
-    return [set_object(SURFACE, drawn)]
+    return set_object(SURFACE, drawn)
 
 
 def draw_shadow(shape: Shape) -> list[Message]:
@@ -127,6 +163,18 @@ def _sheet(scale: SeaScale) -> Mesh:
     vertices = np.column_stack([x, y, np.zeros_like(x)])
     normals = np.tile([0.0, 0.0, -1.0], (len(vertices), 1))
     return Mesh(vertices, normals, grid_triangles(points, points))
+
+
+def _stretched_sheet(scale: SeaScale) -> Mesh:
+    """A level square whose points stand close where the vehicle is and ever farther apart towards the edge."""
+    fine = FINE_REACH * scale.size / FINE_STEPS
+    count = math.ceil(math.log(1.0 + (STRETCH - 1.0) * scale.half_sheet / (STRETCH * fine), STRETCH))
+    steps = np.concatenate([np.full(FINE_STEPS, fine), fine * STRETCH ** np.arange(1, count + 1)])
+    ticks = np.concatenate([-np.cumsum(steps)[::-1], [0.0], np.cumsum(steps)])
+    x, y = (axis.ravel() for axis in np.meshgrid(ticks, ticks))
+    vertices = np.column_stack([x, y, np.zeros_like(x)])
+    normals = np.tile([0.0, 0.0, -1.0], (len(vertices), 1))
+    return Mesh(vertices, normals, grid_triangles(len(ticks), len(ticks)))
 
 
 def _mottle(sheet: Mesh, period: float, depth: float) -> FloatArray:

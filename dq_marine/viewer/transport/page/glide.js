@@ -4,18 +4,18 @@
 
 const glide = (() => {
   const CLOCK = "/world/clock";
-  const GLIDING = ["/world", "/world/vehicle", "/world/thrust", "/world/shadow"];
+  const GLIDING = ["/world", "/world/vehicle", "/world/thrust", "/world/shadow", CLOCK];
   const LONGEST = 2000, AFTER_A_PAUSE = 150;  // milliseconds from one message to the next
   const find = (path) => viewer.scene_tree.find(path.slice(1).split("/"));
 
-  let told_at = -Infinity, length = 0, jumping = true;
+  let told_at = -Infinity, last_time = Infinity, length = 0, jumping = true;
   const moving = new Map();  // by node: where it came from, and where it goes
 
   const node_class = Object.getPrototypeOf(viewer.scene_tree);
   const set_at_once = node_class.set_transform;
   node_class.set_transform = function (matrix) {
     if (this === find(CLOCK)) {
-      note_the_time(matrix[12] - this.object.position.x);
+      note_the_time(matrix[12]);
     }
     const object = this.object;
     const from = {position: object.position.clone(), quaternion: object.quaternion.clone(), scale: object.scale.clone()};
@@ -29,9 +29,10 @@ const glide = (() => {
     }
   };
 
-  function note_the_time(elapsed) {
+  function note_the_time(time) {
     const now = performance.now();
-    jumping = elapsed <= 0 || told_at === -Infinity;
+    jumping = !(time > last_time) || told_at === -Infinity;
+    last_time = time;
     length = now - told_at > LONGEST ? AFTER_A_PAUSE : now - told_at;
     told_at = now;
   }
