@@ -38,7 +38,11 @@ def leaderboard(
     ] = None,
     agent: Annotated[
         list[Baseline] | None,
-        typer.Option("--agent", help="A baseline; may be repeated.", show_default="controller"),
+        typer.Option(
+            "--agent",
+            help="A baseline; may be repeated.",
+            show_default="controller, unless --policy is given",
+        ),
     ] = None,
     policy: Annotated[
         list[Path] | None,

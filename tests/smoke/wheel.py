@@ -42,6 +42,9 @@ for name in (*vehicle_names(), "rexrov_published"):
     load_vehicle(name)
 assert load_vehicle("supply_vessel").radiation is not None
 
+assert len(dq_marine.scenario_names()) >= 20
+dq_marine.make_scenario("StationKeeping/calm").reset()
+
 # A wheel's long description is the README: every name of ours that its Python code imports must be there. Those that
 # need an extra say which; all others need only the core.
 EXTRAS = {"dq_marine.ThrustAllocator": "allocation", "dq_marine.agents.MarineVecEnv": "agents"}
