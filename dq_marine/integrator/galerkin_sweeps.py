@@ -24,17 +24,12 @@ from dq_marine.integrator.drift_report import SolverReport, accepted_squared, co
 from dq_marine.integrator.galerkin_curve import Rates, change_squared, make_first_node, turning_from
 
 MAX_SWEEPS = 40
-UNTESTED = 1  # sweeps before changes are looked at
+UNTESTED = 4  # sweeps before changes are looked at
 HOPELESS = 1e4  # squared change of a sweep that diverges
-PATIENCE = (
-    8  # sweeps after which the squared change must be below the next number: pieces of the step cost less
-)
-PROMISING = 1e-5
+PATIENCE = 8  # sweeps after which the squared change must be promising: else pieces of the step cost less
+PROMISING = 5e-7
 KIRCHHOFF_SWEEPS = 3  # for the first guess: more would not bring it closer than both collocations differ
-SLOWEST_TRUSTED = (
-    0.01  # of the squared change between two sweeps: it is not taken to shrink faster than tenfold
-)
-SAFETY = 0.01  # of the squared change that is expected of the next sweep: a tenth of what would do
+FASTEST_TRUSTED = 0.002  # of the squared change between two sweeps: it is not taken to shrink faster
 SMALL_PART = 1e-4  # of the squared parts of a velocity that cancel: their round-off is not to be waited for
 
 
@@ -137,8 +132,8 @@ def make_sweeps(
                 change = select(active, changes, change)
             now = each_stage(weights, select, (active, following, now))
             if taken > UNTESTED:
-                expected = change * max(change, SLOWEST_TRUSTED * before)
-                done = expected <= SAFETY * converged_squared(change) * before
+                expected = change * max(change, FASTEST_TRUSTED * before)
+                done = expected <= converged_squared(change) * before
                 stagnates = (before <= accepted_squared(before)) & (change >= before)
                 solved = solved | (active & (done | stagnates))
                 promising = change <= (PROMISING if taken >= PATIENCE else HOPELESS)

@@ -85,6 +85,7 @@ WITH_STAGES = {
 """Steps of the motion, by scheme and order."""
 IN_A_SLOPE = {
     **WITH_STAGES,
+    ("galerkin", 8): [16, 20, 24, 28],
     ("gauss", 8): [16, 20, 24, 28],
     ("midpoint", 4): [20, 40, 80],
     ("midpoint", 6): [20, 40, 80],
