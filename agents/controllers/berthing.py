@@ -30,7 +30,8 @@ SWAY = 1
 STANDOFF = 0.75  # where vessels that can be moved sideways come to, beside piers and fenders [lengths]
 TAKEN = 0.5  # from where they are positioned: distance along the quay to the berth [lengths]
 WAITING = 0.2  # a vessel this near to where it should be is moved in [lengths]
-BRAKING, EASING = 0.3, 0.1  # shares of the thrust that (1) counts on, ahead and sideways
+BRAKING, EASING = 0.2, 0.1  # shares of the thrust that (1) counts on, ahead and sideways
+NEAR = 0.1  # within this the speed falls in proportion to the distance [lengths]
 SIDEWAYS = 0.08  # fastest towards the quay [cruising speed]
 TOUCH = 0.4  # of the contact speed, at last
 HASTE = 0.7  # fastest along the quay [cruising speed]
@@ -112,7 +113,8 @@ class BerthingController(Journey):
 
     def _slowed(self, distance: float, acceleration: float) -> float:
         """Return the speed (1) [m/s], less than 0 where the berth is astern."""
-        speed = math.sqrt(2.0 * acceleration * abs(distance))
+        near = min(1.0, abs(distance) / (NEAR * self._length))  # (1) is too steep at the place itself
+        speed = math.sqrt(2.0 * acceleration * abs(distance) * near)
         return math.copysign(min(speed, self._speed), distance)
 
     def _wanted(self, observation: Observation) -> Reading:
