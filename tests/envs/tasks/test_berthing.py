@@ -35,6 +35,13 @@ def test_the_baseline_comes_alongside_in_current_and_wind(vehicle):
 
 
 @pytest.mark.sweep
+def test_the_baseline_comes_alongside_by_differential_thrust():
+    env = gym.make(ID, vehicle="otter", level="medium", actuation="thrusters")
+    controller = controller_for(env)
+    assert all(fly_episode(env, controller, seed=seed).success for seed in range(3))
+
+
+@pytest.mark.sweep
 def test_who_goes_straight_for_the_berth_strikes_a_pier():
     env = gym.make(ID, pier=1.0)
     straight = DPController.for_env(env)
