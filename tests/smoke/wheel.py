@@ -47,7 +47,11 @@ dq_marine.make_scenario("StationKeeping/calm").reset()
 
 # A wheel's long description is the README: every name of ours that its Python code imports must be there. Those that
 # need an extra say which; all others need only the core.
-EXTRAS = {"dq_marine.ThrustAllocator": "allocation", "dq_marine.agents.MarineVecEnv": "agents"}
+EXTRAS = {
+    "dq_marine.ThrustAllocator": "allocation",
+    "dq_marine.agents.MarineVecEnv": "agents",
+    "dq_marine.envs.parallel_env": "multi",
+}
 metadata = importlib.metadata.metadata("dq-marine")
 readme = metadata["Description"] or str(metadata.get_payload())
 imports = {

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
@@ -189,6 +189,7 @@ def test_a_beam_ends_at_the_seabed_where_brents_method_finds_it(seed, heading, t
 
 
 @given(seed=seeds, heading=angles, below=st.floats(-0.2, 0.5))
+@example(seed=95146, heading=1.0, below=0.09375)
 def test_a_beam_that_grazes_the_seabed_stops_at_it_and_not_before(seed, heading, below):
     """Where the bound of the slope alone would creep: the first crossing is found on a fine grid, and refined."""
     own, reach = ground(seed), 60.0

@@ -26,8 +26,9 @@ WAVE_DRAWS = 4
 SHORTEST = 0.5
 """The shortest wave, over the longest."""
 
-TRACING = 8
-"""Steps of a beam to a seabed."""
+TRACING = 16
+"""Steps of a beam to a seabed: they leave none that grazes it more than a micrometre above it (of 12,000 that were drawn);
+eight would leave one in a thousand 8 cm above."""
 
 LEAST_CLOSING = 1e-6
 """Of a beam and the seabed, per metre: what comes closer more slowly, or not at all, is taken to come at this rate."""

@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +18,8 @@ from viewer.devtools import Page, open_page
 
 pytestmark = pytest.mark.browser
 
+PATIENCE = 180.0
+KEYS = ("KeyW", "KeyS", "KeyE", "KeyQ")
 READY = "document.querySelectorAll('#panel-controls details').length > 1"
 
 GOAL_FROM_VEHICLE = """(() => {
@@ -68,17 +71,17 @@ def test_a_person_reaches_a_goal_by_the_keys(tmp_path: Path) -> None:
     start = ["--set", "start_radius=0", "--set", "goal_position=[0,0,8]"]
     with flight(*options, *start, "--start-distance", "2") as (process, page):
         page.wait_until(f"{reading('position error')} > 1.5")
-        slide(page, "speed", np.log(2.0))
-        for _ in range(400):
+        slide(page, "power", 0.3)  # a busy machine shows late where the vehicle is
+        deadline = time.monotonic() + PATIENCE
+        while page.evaluate(reading("position error")) > 0.4:
+            assert time.monotonic() < deadline
             north, east, _ = page.evaluate(f"{GOAL_FROM_VEHICLE}.toArray()")
-            if np.hypot(north, east) < 0.25:
-                break
-            wanted = {"KeyW": north > 0.15, "KeyS": north < -0.15, "KeyE": east > 0.15, "KeyQ": east < -0.15}
+            wanted = {"KeyW": north > 0.2, "KeyS": north < -0.2, "KeyE": east > 0.2, "KeyQ": east < -0.2}
             for code, down in wanted.items():
                 press(page, "keydown" if down else "keyup", code)
-        for code in wanted:
+        for code in KEYS:
             press(page, "keyup", code)
-        page.wait_until(f"{reading('position error')} < 0.5")
+        page.wait_until(f"Math.abs({reading('u, surge')}) < 0.02 && {reading('position error')} < 0.8")
         page.evaluate("document.getElementById('control-quit').click()")
         out, _ = process.communicate(timeout=120)
         assert process.returncode == 0, out
