@@ -27,7 +27,7 @@ SHORTEST = 0.5
 """The shortest wave, over the longest."""
 
 TRACING = 16
-"""Steps of a beam to a seabed: they leave none that grazes it more than a micrometre above it (of 12,000 that were drawn);
+"""Steps of a beam to a seabed: of 12,000 that grazed it they left none more than a micrometre above it;
 eight would leave one in a thousand 8 cm above."""
 
 LEAST_CLOSING = 1e-6
