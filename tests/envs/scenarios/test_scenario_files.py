@@ -187,7 +187,7 @@ def test_a_file_without_scenarios_is_refused(file, content):
 @pytest.mark.parametrize(
     ("name", "task", "message"),
     [
-        ("calm", None, "may be any of DepthHeading/calm, .*; give one of these"),
+        ("calm", None, "may be any of Berthing/calm, .*; give one of these"),
         ("sunny", None, "there is no scenario 'sunny'; there are those that `dq-marine scenarios` lists"),
         ("StationKeeping/sunny", None, "there are StationKeeping/calm, "),
         ("Sailing/calm", None, "there is no task 'Sailing'"),
