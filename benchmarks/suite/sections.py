@@ -14,6 +14,7 @@ from suite import (
     one_body,
     ppo,
     schemes,
+    tasks,
     terms,
     water,
 )
@@ -29,6 +30,7 @@ SECTIONS: dict[str, Section] = {
         batch,
         lanes_against_rk4,
         environments,
+        tasks,
         schemes,
         baseline,
         ppo,

@@ -34,7 +34,13 @@ def flight(*options: str) -> Iterator[tuple[subprocess.Popen[str], Page]]:
     """The command `dq-marine fly`, and its page."""
     command = [sys.executable, "-m", "dq_marine", "fly", *options]
     process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ,
+        # A shell that starts the tests in the background has its children ignore Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     try:
         assert process.stderr is not None
