@@ -88,9 +88,7 @@ def lane_rows(plan: Plan, task: TaskDefinition) -> list[Row]:
 
 def stretch_of(task: TaskDefinition, threads: int) -> Stretch:
     """Return environments in lanes, and actions for them."""
-    envs = gym.make_vec(
-        task.id, num_envs=SIZE, autoreset_mode=AutoresetMode.SAME_STEP, threads=threads
-    )
+    envs = gym.make_vec(task.id, num_envs=SIZE, autoreset_mode=AutoresetMode.SAME_STEP, threads=threads)
     shape = envs.action_space.shape or ()
     rng = np.random.default_rng(0)
     return Stretch(envs, [rng.uniform(-1.0, 1.0, shape).astype(np.float32) for _ in range(ACTIONS)])
@@ -100,7 +98,12 @@ def tables(content: dict[str, Any]) -> str:
     """Return rates by task."""
     rows = content["rows"]
     threads = distinct([row for row in rows if "threads" in row], "threads")
-    header = ["task", "vehicle", "single, thousand/s", *(f"in lanes, {named(one)}, million/s" for one in threads)]
+    header = [
+        "task",
+        "vehicle",
+        "single, thousand/s",
+        *(f"in lanes, {named(one)}, million/s" for one in threads),
+    ]
     lines = []
     for task in distinct(rows, "task"):
         single = found(rows, task=task, environments=1)
