@@ -60,6 +60,7 @@ def heights(page: Page, reach: float) -> RegularGridInterpolator:
     return RegularGridInterpolator((ticks, ticks), -z.reshape(len(ticks), len(ticks)).T)
 
 
+@pytest.mark.sweep  # a replay has the sea at its times in a plain run
 @pytest.mark.browser
 def test_at_the_hull_the_surface_is_the_simulated_one_to_a_centimetre(drawn) -> None:
     viewer, page, shape, sea = drawn

@@ -99,6 +99,7 @@ def test_effort_is_the_mean_square_of_all_channels():
     assert env.step(action)[1] == pytest.approx(-float(np.mean(action.astype(float) ** 2)), rel=1e-12)
 
 
+@pytest.mark.sweep  # tests/agents/training has those that are moved by wrenches
 def test_the_learning_librarys_environments_are_the_same():
     from stable_baselines3.common.vec_env import DummyVecEnv
 
