@@ -220,10 +220,12 @@ def test_view_stays_for_small_motions_and_follows_large_ones() -> None:
 
 def test_trail_forgets_the_oldest_and_skips_the_nearest() -> None:
     trail = Trail(spacing=0.1)
-    taken = [trail.extend(np.array([0.06 * i, 0.0, 0.0])) for i in range(5)]
+    taken = [trail.extend(np.array([0.06 * i, 0.0, 0.0]), 0.1 * i) for i in range(5)]
     assert taken == [True, False, True, False, True]
     for i in range(2 * LONGEST):
-        trail.extend(np.array([float(i), 5.0, 0.0]))
+        trail.extend(np.array([float(i), 5.0, 0.0]), float(i))
     points = trail.message().content["object"]["geometries"][0]["data"]["attributes"]["position"]["array"]
     drawn = np.frombuffer(points.data, dtype="<f4").reshape(-1, 3)
     assert_allclose(drawn[:, 0], np.arange(LONGEST, 2 * LONGEST))
+    times = trail.message().content["object"]["object"]["userData"]["times"]
+    assert_allclose(np.frombuffer(times.data, dtype="<f4"), drawn[:, 0])

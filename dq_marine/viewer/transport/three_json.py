@@ -115,10 +115,10 @@ def surface(
     return drawn
 
 
-def polyline(path: str, points: FloatArray, color: int) -> Json:
-    """A line, one pixel wide, through points of shape (n, 3) [m]."""
+def polyline(path: str, points: FloatArray, color: int, user_data: Mapping[str, Any] | None = None) -> Json:
+    """A line, one pixel wide, through points of shape (n, 3) [m], with data for the page to read."""
     material = {"type": "LineBasicMaterial", "color": color, "fog": False}
-    return _object(path, "Line", _geometry(position=points), material)
+    return _object(path, "Line", _geometry(position=points), material, user_data)
 
 
 def point_cloud(path: str, points: FloatArray, color: int, size: float) -> Json:

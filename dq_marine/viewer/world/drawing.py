@@ -9,6 +9,7 @@ Everything hangs under `/world`, whose frame is NED:
 | `/world/thrust/...`, `/world/current/...` | arrows of the forces that are applied, and of the water's motion |
 | `/world/trail` | past positions |
 | `/world/floor/...`, `/world/surface`, `/world/specks`, `/world/shadow` | the sea |
+| `/world/wake` | foam behind a vessel that floats |
 | `/world/things/...` | what is around the vehicle: pillars, vessels, docks, pipes |
 | `/world/dials/...` | nothing to see: numbers for the page's legend (`world/dials.py`) |
 | `/world/clock` | nothing to see: its x is the simulated time [s], which the page displays |
@@ -55,6 +56,7 @@ from dq_marine.viewer.world.sea import (
     nearest_period,
 )
 from dq_marine.viewer.world.things import Things
+from dq_marine.viewer.world.wake import draw_wake
 from dq_marine.viewer.world.water import draw_water, surroundings_of
 
 WORLD = "/world"
@@ -104,6 +106,7 @@ class Drawing:
             *draw_surface(scale, surroundings),
             *(draw_specks(scale) if surroundings.specks else ()),
             *draw_shadow(self._shape),
+            *draw_wake(self._shape),
             *draw_vehicle(self._shape),
             *draw_goal(self._shape),
             *self._arrows.scenery(),

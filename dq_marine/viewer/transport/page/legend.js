@@ -51,7 +51,7 @@
 
   const plain = (value) => String(Number(value.toPrecision(3)));
   const newtons = (value) => {
-    const [size, unit] = UNITS.find(([size]) => value >= size) || UNITS.at(-1);
+    const [size, unit] = UNITS.find(([least]) => Number(plain(value)) >= least) || UNITS.at(-1);
     return `${plain(value / size)} ${unit}`;
   };
   const bearing = (north, east) => {  // degrees from north, clockwise
