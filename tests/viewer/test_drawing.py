@@ -19,7 +19,7 @@ from dq_marine.viewer.placement import HIDDEN_SCALE, Placement
 from dq_marine.viewer.snapshot import Shape, Snapshot, Thrust
 from dq_marine.viewer.world.arrows import CURRENT_PATHS, NET_THRUST, thrust_path
 from dq_marine.viewer.world.camera import LeashedView
-from dq_marine.viewer.world.dials import ACTUATORS, CURRENT, FORCE, WAVES, WIND
+from dq_marine.viewer.world.dials import ACTUATORS, CURRENT, FORCE, MOMENT, WAVES, WIND
 from dq_marine.viewer.world.drawing import CLOCK, WORLD, Drawing, checked_floor_depth, floor_below
 from dq_marine.viewer.world.sea import FLOOR, SHADOW, SPECKS, SURFACE, SeaScale
 from dq_marine.viewer.world.trail import LONGEST, Trail
@@ -133,13 +133,14 @@ def test_dials_show_force_current_wind_and_waves() -> None:
     sea = Sea(Jonswap(2.0, 8.0), direction=math.pi / 2)
     shown = snapshot(
         quaternion_body_to_ned=yawed(math.pi / 2),
-        wrench_body=[40.0, 0, 0, 0, 0, 0],
+        wrench_body=[40.0, 0, 0, 5.0, 0, 7.0],
         current_ned=[0.1, 0.2, 0.3],
         wind_ned=[-8.0, 0.0, 0.0],
         sea=sea,
     )
-    numbers = {path: list(place(shown, path).position) for path in (FORCE, ACTUATORS, CURRENT, WIND, WAVES)}
-    expected = ([0, 40, 0], [0, 0, 0], [0.1, 0.2, 0.3], [-8, 0, 0], [0, 2, 8])
+    dials = (FORCE, MOMENT, ACTUATORS, CURRENT, WIND, WAVES)
+    numbers = {path: list(place(shown, path).position) for path in dials}
+    expected = ([0, 40, 0], [0, 5, 7], [0, 0, 0], [0.1, 0.2, 0.3], [-8, 0, 0], [0, 2, 8])
     assert_allclose(list(numbers.values()), expected, atol=1e-12)
     for path in (WIND, WAVES):
         assert place(snapshot(), path).position == (0.0, 0.0, 0.0)

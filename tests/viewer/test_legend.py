@@ -73,8 +73,8 @@ def test_as_many_newtons_as_an_arrow_of_that_length_on_the_screen(viewer: LiveVi
 
 
 def test_without_actuators_it_is_of_the_net_thrust(viewer: LiveViewer, page: Page) -> None:
-    viewer.draw(snapshot(time=3.0, wrench_body=[30.0, 40.0, 0, 0, 0, 0]))
-    wait_for(page, "thrust", "net thrust · 50 N")
+    viewer.draw(snapshot(time=3.0, wrench_body=[30.0, 40.0, 0, 0, 3.0, 4.0]))
+    wait_for(page, "thrust", "net thrust · 50 N, 5 N m")
     viewer.draw(thrusting(1500.0, time=4.0))
     wait_for(page, "thrust", "net 1.5 kN")
 

@@ -3,6 +3,7 @@
 | path | its position |
 |---|---|
 | `/world/dials/force` | net force [N], NED |
+| `/world/dials/moment` | net moment about the vehicle's origin [N m], NED |
 | `/world/dials/actuators` | its x is the number of actuators that have an arrow |
 | `/world/dials/current` | velocity of the water [m/s], NED |
 | `/world/dials/wind` | velocity of the mean wind [m/s], NED |
@@ -23,6 +24,7 @@ from dq_marine.viewer.snapshot import FloatArray, Snapshot
 
 DIALS = "/world/dials"
 FORCE = f"{DIALS}/force"
+MOMENT = f"{DIALS}/moment"
 ACTUATORS = f"{DIALS}/actuators"
 CURRENT = f"{DIALS}/current"
 WIND = f"{DIALS}/wind"
@@ -39,6 +41,7 @@ def dial_placements(snapshot: Snapshot, body_to_ned: FloatArray) -> dict[str, Pl
     wind = np.zeros(3) if snapshot.wind_ned is None else snapshot.wind_ned
     shown: dict[str, Vector3] = {
         FORCE: vector3(body_to_ned @ snapshot.wrench_body[:3]),
+        MOMENT: vector3(body_to_ned @ snapshot.wrench_body[3:]),
         ACTUATORS: (float(len(snapshot.thrusts)), 0.0, 0.0),
         CURRENT: vector3(snapshot.current_ned),
         WIND: vector3(wind),

@@ -129,7 +129,8 @@
     const pixels = pixels_per_metre();
     const water = dial("current"), flow = water.length(), air = dial("wind"), sea = dial("waves");
     const actuators = dial("actuators").x > 0;
-    const net = `${actuators ? "thrust of each actuator · net" : "net thrust ·"} ${newtons(dial("force").length())}`;
+    const name = actuators ? "thrust of each actuator · net" : "net thrust ·", moment = newtons(dial("moment").length());
+    const net = `${name} ${newtons(dial("force").length())}, ${moment} m`;
     scale(thrust, ["world", "thrust", actuators ? "0" : "net"], pixels, newtons, net);
     const stream = `current · ${flow.toFixed(2)} m/s to ${bearing(water.x, water.y)}`;
     scale(current, ["world", "current", "0"], pixels, (value) => `${plain(value)} m/s`, flow > SMALL && stream);
