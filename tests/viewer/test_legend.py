@@ -1,26 +1,21 @@
-"""The legend, in a real browser: its arrows are as long as those in the scene, and it names wind, waves and current."""
+"""The legend of a live page, in a real browser: its arrows are as long as those in the scene."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from viewer.devtools import Page, open_page
 from viewer.samples import ROV, snapshot
 
-from dq_marine.physics.waves.sea import Sea
-from dq_marine.physics.waves.spectra import Jonswap
-from dq_marine.viewer import LiveViewer, Snapshot, save_replay
-from dq_marine.viewer.snapshot import Shape, Thrust
+from dq_marine.viewer import LiveViewer, Snapshot
+from dq_marine.viewer.snapshot import Thrust
 
 pytestmark = pytest.mark.browser
 
-SIZE = {"width": 900, "height": 700}
-SHIP = Shape(80.0, 18.0, 12.0, kind="ship", draft=6.0, max_force=1e6)
+SIZE = {"width": 640, "height": 560}
 
 
 def thrusting(force: float, **changes: object) -> Snapshot:
@@ -96,25 +91,3 @@ def test_a_goal_is_named_where_there_is_one(viewer: LiveViewer, page: Page) -> N
     viewer.draw(snapshot(time=8.0, goal_position_ned=[1.0, 0.0, 5.0]))
     page.wait_until(f"{words}.includes('goal')")
     assert all(name in page.evaluate(words) for name in ("bow", "track"))
-
-
-def test_a_replay_tells_the_weather(tmp_path: Path) -> None:
-    path, sea = tmp_path / "ship.html", Sea(Jonswap(1.5, 7.0), direction=math.pi / 2)
-    moments = [
-        snapshot(
-            time=float(time),
-            position_ned=[float(time), 0.0, 0.0],
-            wind_ned=[-8.0, 0.0, 0.0],
-            sea=sea,
-            wrench_body=[5e5, 0, 0, 0, 0, 0],
-        )
-        for time in range(3)
-    ]
-    save_replay(path, moments, SHIP)
-    with open_page(path.as_uri(), **SIZE) as page:
-        wait_for(page, "wind", "wind 8.0 m/s from 000°")
-        wait_for(page, "waves", "waves from 270°, Hs 1.5 m, Tp 7 s")
-        wait_for(page, "thrust", "net thrust · 500 kN")
-        assert row(page, "current") is None
-        box = page.evaluate("document.getElementById('legend').getBoundingClientRect().bottom")
-        assert box < page.evaluate("document.getElementById('controls').getBoundingClientRect().top")
