@@ -63,10 +63,12 @@ class Charted(NamedTuple):
     Attributes:
         depth: (chart, north, east) -> depth there [m].
         cast: (chart, origin, direction, reach) -> range along a ray [m].
+        along: (chart, north, east, a level direction's parts) -> depth there [m], and its growth per metre that way.
     """
 
     depth: Callable[[Chart, float, float], float]
     cast: Callable[[Chart, Vector3, Vector3, float], float]
+    along: Callable[[Chart, float, float, float, float], tuple[float, float]]
 
 
 def make_chart(rows: int, columns: int) -> Charted:
@@ -94,7 +96,30 @@ def make_chart(rows: int, columns: int) -> Charted:
             travelled = min(travelled + max(height, 0.0) * per_height, reach)
         return travelled
 
-    return Charted(depth, cast)
+    def along(
+        chart: Chart, north: float, east: float, way_north: float, way_east: float
+    ) -> tuple[float, float]:
+        row = _cell((north - chart.north) / chart.spacing, last_row)
+        column = _cell((east - chart.east) / chart.spacing, last_column)
+        place = row.first * width + column.first
+        near, far = entry(chart.depths, place), entry(chart.depths, place + 1.0)
+        beyond_near, beyond_far = (
+            entry(chart.depths, place + width),
+            entry(chart.depths, place + width + 1.0),
+        )
+        south, farther = (
+            _between(column.share, near, far),
+            _between(column.share, beyond_near, beyond_far),
+        )
+        # Beyond an edge nothing changes across it.
+        northward = select(row.beyond == 0.0, farther - south, 0.0)
+        eastward = select(
+            column.beyond == 0.0, _between(row.share, far - near, beyond_far - beyond_near), 0.0
+        )
+        growth = (northward * way_north + eastward * way_east) / chart.spacing
+        return _between(row.share, south, farther), growth
+
+    return Charted(depth, cast, along)
 
 
 def charted(depths: Sequence[Sequence[float]], north: float, east: float, spacing: float) -> Chart:
