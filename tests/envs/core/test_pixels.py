@@ -49,15 +49,6 @@ def test_pictures_follow_the_state_and_nothing_else():
     env.close()
 
 
-def test_pictures_stand_in_the_place_of_goals_too():
-    numbers, pictures = (
-        gym.make("dq_marine/WaypointTracking-v0", observation=one) for one in ("numbers", SMALL)
-    )
-    assert isinstance(numbers.observation_space, gym.spaces.Dict)
-    assert isinstance(pictures.observation_space, gym.spaces.Box)
-    assert pictures.action_space == numbers.action_space
-
-
 def test_environments_of_pictures_travel_and_are_made_again_from_their_spec():
     env = gym.make(ID, observation="pixels")
     for other in (pickle.loads(pickle.dumps(env)), copy.deepcopy(env), gym.make(env.spec)):
