@@ -20,7 +20,7 @@ def read_npy(path: Path) -> NDArray[np.float64]:
     try:
         with path.open("rb") as file:
             found = np.lib.format.read_array(file, allow_pickle=False)
-    except (OSError, ValueError, EOFError, MemoryError, TypeError) as error:
+    except Exception as error:  # what a damaged header leads to is not listed anywhere
         raise InvalidInputError(
             f"{path} is no NumPy file of numbers: {error}; write one by numpy.save(file, depths)"
         ) from error

@@ -23,7 +23,7 @@ from dq_marine.task.world.charts import DistanceGrid, make_grid_distance
 MOST_SAMPLES = 2**16
 """Of a grid: each environment holds them all."""
 
-MOST_PAIRS = 2**28
+MOST_PAIRS = 2**26
 """Of a sample and a triangle: as many distances take about a minute."""
 
 LEAST_SPACING, MOST_SPACING = 1e-3, 1e3

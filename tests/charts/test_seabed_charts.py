@@ -130,6 +130,24 @@ def test_damaged_files_are_refused_whatever_is_cut_off(tmp_path):
         seabed_chart({"file": tmp_path / "objects.npy", "spacing": 1.0})
 
 
+@pytest.mark.parametrize("name", ["bed.tif", "bed.npy"])
+def test_of_files_with_wrong_bytes_nothing_else_comes_than_a_chart_or_a_refusal(tmp_path, name):
+    path = tmp_path / name
+    np.save(path, DEPTHS) if name.endswith("npy") else geotiff(path, DEPTHS, compression="zlib")
+    given = {"file": path, "spacing": 1.0} if name.endswith("npy") else path
+    whole, rng, refused = np.frombuffer(path.read_bytes(), np.uint8), np.random.default_rng(0), 0
+    for _ in range(300):
+        wrong = whole.copy()
+        places = rng.integers(0, len(wrong), rng.integers(1, 4))
+        wrong[places] = rng.integers(0, 256, len(places))
+        path.write_bytes(wrong.tobytes())
+        try:
+            assert np.isfinite(seabed_chart(given).depths).all()
+        except InvalidInputError:
+            refused += 1
+    assert 0 < refused < 300
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [

@@ -100,6 +100,6 @@ def test_meshes_that_are_open_absent_or_too_fine_are_refused(tmp_path, monkeypat
     with pytest.raises(InvalidInputError, match="there is no mesh"):
         SolidChart.from_stl(tmp_path / "nowhere.stl", 0.25)
     path = write_stl(tmp_path / "box.stl", box_triangles())
-    monkeypatch.setattr("dq_marine.charts.solid_chart.MOST_PAIRS", MOST_PAIRS >> 14)
+    monkeypatch.setattr("dq_marine.charts.solid_chart.MOST_PAIRS", MOST_PAIRS >> 12)
     with pytest.raises(InvalidInputError, match=r"12 triangles, too many for .* samples; give at most"):
         SolidChart.from_stl(path, 0.25)
