@@ -136,7 +136,7 @@ def test_of_files_with_wrong_bytes_nothing_else_comes_than_a_chart_or_a_refusal(
     np.save(path, DEPTHS) if name.endswith("npy") else geotiff(path, DEPTHS, compression="zlib")
     given = {"file": path, "spacing": 1.0} if name.endswith("npy") else path
     whole, rng, refused = np.frombuffer(path.read_bytes(), np.uint8), np.random.default_rng(0), 0
-    for _ in range(300):
+    for _ in range(100):
         wrong = whole.copy()
         places = rng.integers(0, len(wrong), rng.integers(1, 4))
         wrong[places] = rng.integers(0, 256, len(places))
@@ -145,7 +145,7 @@ def test_of_files_with_wrong_bytes_nothing_else_comes_than_a_chart_or_a_refusal(
             assert np.isfinite(seabed_chart(given).depths).all()
         except InvalidInputError:
             refused += 1
-    assert 0 < refused < 300
+    assert 0 < refused < 100
 
 
 @pytest.mark.parametrize(
