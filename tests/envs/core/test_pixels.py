@@ -37,15 +37,15 @@ def test_pictures_follow_the_state_and_nothing_else():
     assert env.observation_space.contains(first)
     assert "is_success" in info
     state = env.unwrapped.get_state()
+    action = np.array([-1.0, 0.0, 0.0, 0.0, 0.0, 0.3], dtype=np.float32)
     for _ in range(20):
-        later, *_ = env.step(np.array([-1.0, 0.0, 0.0, 0.0, 0.0, 0.3], dtype=np.float32))
+        env.unwrapped.step(action)  # without a picture
+    later, *_ = env.step(action)
     assert (np.abs(later.astype(int) - first.astype(int)).max(axis=2) > 30).mean() > 0.002
     env.unwrapped.set_state(state)
-    pictures = env.get_wrapper_attr("observation")
-    again = pictures(None)
+    again = env.get_wrapper_attr("observation")(None)
     assert (again != first).any(axis=2).sum() <= 5  # no trail led here; faces of one depth take turns
     env.close()
-    assert (pictures(None) != first).any(axis=2).sum() <= 5  # opens again
     env.close()
 
 
