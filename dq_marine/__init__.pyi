@@ -1,6 +1,8 @@
 """The public names of dq_marine. Each line makes a name public; `dq_marine.util.lazy_names` reads them here."""
 
 from dq_marine.algebra.spatial import Spatial as Spatial
+from dq_marine.charts.seabed_chart import SeabedChart as SeabedChart
+from dq_marine.charts.solid_chart import SolidChart as SolidChart
 from dq_marine.envs.core.definition import TaskDefinition as TaskDefinition
 from dq_marine.envs.core.module_task import define_task as define_task
 from dq_marine.envs.core.registry import register_task as register_task

@@ -38,12 +38,19 @@ def find_lanes(*kinds: types.Type) -> Lanes | None:
     return None
 
 
+def is_one_for_all(kind: types.Type) -> bool:
+    """Whether a part of nested tuples is no number: a table, which bodies in lanes share."""
+    return not isinstance(kind, Lanes | types.Number | types.Boolean)
+
+
 def selected_type(mask: Lanes, chosen: types.Type, otherwise: types.Type) -> types.Type:
-    """Return the type of a selection by lanes: numbers become lanes, tuples are taken apart."""
+    """Return the type of a selection by lanes: numbers become lanes, tuples are taken apart, a table is one for all."""
     if isinstance(chosen, types.BaseTuple):
         pairs = zip(chosen.types, otherwise.types, strict=True)
         named = getattr(chosen, "instance_class", None)
         return types.BaseTuple.from_types(tuple(selected_type(mask, a, b) for a, b in pairs), named)
+    if chosen == otherwise and is_one_for_all(chosen):
+        return chosen
     lanes = find_lanes(chosen, otherwise)
     if lanes is None:
         lanes = mask.like(chosen)
@@ -70,6 +77,8 @@ def select_lanes(typing_context: Any, mask: Any, chosen: Any, otherwise: Any) ->
                     for i, kinds in enumerate(zip(part.types, a_type.types, b_type.types, strict=True))
                 ]
                 return context.make_tuple(builder, part, items)
+            if is_one_for_all(part):
+                return a
             wide_a = as_lanes(context, builder, a, a_type, part)
             wide_b = as_lanes(context, builder, b, b_type, part)
             return builder.select(values[0], wide_a, wide_b)
@@ -115,7 +124,7 @@ def spread_lanes(typing_context: Any, value: Any, like: Any) -> Any:
     def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
         def build(part: Any, kind: Any, inner: Any) -> Any:
             if not isinstance(part, types.BaseTuple):
-                return as_lanes(context, builder, inner, kind, part)
+                return inner if is_one_for_all(part) else as_lanes(context, builder, inner, kind, part)
             items = [
                 build(a, b, builder.extract_value(inner, i))
                 for i, (a, b) in enumerate(zip(part.types, kind.types, strict=True))

@@ -25,6 +25,7 @@ class GroundFlight(NamedTuple):
         dropout: probability that one is lost.
         keel: the hull from the side.
         period: of control [s].
+        sheet: a `ChartSheet`, where the seabed is that of a chart; nothing where episodes draw it.
     """
 
     speed: float
@@ -37,6 +38,7 @@ class GroundFlight(NamedTuple):
     dropout: float
     keel: Keel
     period: float
+    sheet: Any = ()
 
 
 class FlightRewards(NamedTuple):

@@ -233,9 +233,13 @@ class ComposedTask:
         """Set an attribute, or a keyword of the task.
 
         Raises:
-            InvalidInputError: the task refuses the value; nothing is changed.
+            InvalidInputError: the task refuses the value, or the keyword is `lasting`; nothing is changed.
         """
         if name in self.__dict__.get("definition", _NOTHING).keywords:
+            if name in self.definition.lasting:
+                raise InvalidInputError(
+                    f"{name} holds as long as the environment does; make another one with {name}=..."
+                )
             changed = replace(self.task_settings, **{name: value})
             self.__dict__["task_settings"] = self.definition.fitted(changed, self.vehicle)
         else:
@@ -255,7 +259,7 @@ class ComposedTask:
         """Join the formulas and compile them; nothing of this travels."""
         self.action_mapping = action_mapping_of(self.scene)
         functions = tuple(term.function for term in self.extra_rewards)
-        task = episode_task(self.definition.task, functions)
+        task = episode_task(self.definition.task_for(self.task_settings), functions)
         instruments = tuple(one.instrument for one in self.settings.sensor_list)
         sensed = with_sensors(task, instruments) if instruments else task
         self.task = self.action_mapping.task(sensed)

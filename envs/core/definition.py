@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -107,6 +107,11 @@ def as_given(settings: Any, vehicle: Vehicle) -> Any:
     return settings
 
 
+def same_formulas(settings: Any) -> Mapping[str, Any]:
+    """Return that the task's formulas are the same whatever the settings."""
+    return {}
+
+
 def no_goal(parameters: Any, memory: Any) -> Goal | None:
     """Return that there is nothing to draw."""
     return None
@@ -136,6 +141,9 @@ class TaskDefinition:
             widths end with `_width`.
         settings: a frozen dataclass of the task's keywords, with their defaults, which checks itself.
         fitted: (settings, vehicle) -> the settings with what depends on the vehicle filled in, where nothing was said.
+        formulas: (settings) -> those of the task's functions that settings choose, by their names: the same for equal
+            settings, and not those of `task` only where a keyword of `lasting` asks for others.
+        lasting: names of keywords that hold as long as an environment does.
         options: the task's own options of `reset`, with the size of each; a quaternion's name ends with `quaternion`.
         episode_fields: of the parameters, those that the options change.
         units: of the metrics, by name; for angles in radians "rad".
@@ -166,6 +174,8 @@ class TaskDefinition:
     weights: Any
     settings: type[Any] = NoSettings
     fitted: Callable[[Any, Vehicle], Any] = as_given
+    formulas: Callable[[Any], Mapping[str, Any]] = same_formulas
+    lasting: tuple[str, ...] = ()
     options: Mapping[str, int] = field(default_factory=dict)
     episode_fields: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
@@ -202,6 +212,11 @@ class TaskDefinition:
     def keywords(self) -> tuple[str, ...]:
         """Names of its own keywords."""
         return tuple(one.name for one in fields(self.settings))
+
+    def task_for(self, settings: Any) -> Task:
+        """Return the formulas for settings, which are `checked_settings`'s."""
+        chosen = self.formulas(settings)
+        return replace(self.task, **chosen) if chosen else self.task
 
     def period_for(self, vehicle: Vehicle) -> float:
         """Return the default control period for a vehicle [s]."""

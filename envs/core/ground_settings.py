@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from dq_marine.charts import SeabedChart, seabed_chart
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.definition import EpisodeContext
 from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed
+from dq_marine.errors import InvalidInputError
 from dq_marine.task.common import SPEED_BOUND
 from dq_marine.task.ground_flight import GroundFlight
+from dq_marine.task.grounds import Grounds, make_charted_ground, make_wavy_ground
 from dq_marine.task.world.keel import Keel
 
 if TYPE_CHECKING:
@@ -19,6 +22,9 @@ if TYPE_CHECKING:
 
 LEAST_DEPTH = 20.0
 """Of the vehicle over the highest crest; ten lengths of long vehicles [m]."""
+
+ROOM = 2.0
+"""Least depth of a chart, over the altitude to keep: episodes begin up to a fifth of it too high."""
 
 QUIET = {"noise": 0.0, "dropout": 0.0, "current": 0.0}
 DISTURBED = {"noise": 0.02, "dropout": 0.2, "current": 0.3, "randomise": "default", "sensors": "auv"}
@@ -32,6 +38,9 @@ class GroundSettings:
     A speed of None is three fifths of what the vehicle reaches, or can steer at. `slope` bounds that of the seabed.
     `noise` is the standard deviation of readings [share of the reach], `dropout` the probability that one is lost, and
     reads as if nothing were there.
+
+    A `seabed` is a chart, or the file of one, see `dq_marine.SeabedChart`; each episode then draws a place on it, and
+    `wave` and `slope` mean nothing. None is a seabed of waves that each episode draws.
     """
 
     speed: float | None = None
@@ -41,6 +50,7 @@ class GroundSettings:
     reach: float = 16.0
     noise: float = 0.01
     dropout: float = 0.05
+    seabed: Any = None
 
 
 Given = TypeVar("Given", bound=GroundSettings)
@@ -54,6 +64,9 @@ def over_ground(given: Given, vehicle: Vehicle) -> Given:
     """
     speed = cruising_speed(vehicle) if given.speed is None else given.speed
     altitude = finite_number("altitude", given.altitude, least=1.0, most=1e2)
+    seabed = given.seabed if given.seabed is None else seabed_chart(given.seabed)
+    if seabed is not None:
+        _check_room(seabed, altitude * vehicle.dimensions.length)
     return replace(
         given,
         speed=finite_number("speed", speed, above=0.0, most=SPEED_BOUND),
@@ -63,7 +76,34 @@ def over_ground(given: Given, vehicle: Vehicle) -> Given:
         reach=finite_number("reach", given.reach, least=2.0 * altitude, most=1e3),
         noise=finite_number("noise", given.noise, least=0.0, most=1.0),
         dropout=finite_number("dropout", given.dropout, least=0.0, most=0.9),
+        seabed=seabed,
     )
+
+
+def check_way(settings: GroundSettings, keyword: str, length: float) -> None:
+    """Check that the way of an episode is on the chart, whichever way it goes.
+
+    Args:
+        settings: of the task, which are `over_ground`'s.
+        keyword: that sets the length, for the message.
+        length: of the way [m].
+
+    Raises:
+        InvalidInputError: the chart is shorter.
+    """
+    if settings.seabed is not None and min(settings.seabed.sides) < length:
+        north, east = settings.seabed.sides
+        raise InvalidInputError(
+            f"seabed: {settings.seabed.name} is {north:g} m long and {east:g} m wide, and an episode goes {length:g} m "
+            f"over it; give a chart of at least that both ways, or a smaller {keyword}"
+        )
+
+
+def grounds_for(settings: GroundSettings, waves: int) -> Grounds:
+    """Return the kind of ground of settings, which are `over_ground`'s: a chart, or else so many waves."""
+    if settings.seabed is None:
+        return make_wavy_ground(waves)
+    return make_charted_ground(*settings.seabed.depths.shape)
 
 
 def ground_flight(settings: GroundSettings, context: EpisodeContext) -> GroundFlight:
@@ -82,4 +122,16 @@ def ground_flight(settings: GroundSettings, context: EpisodeContext) -> GroundFl
         settings.dropout,
         Keel(0.5 * size.length, 0.5 * size.height),
         context.control_period,
+        () if settings.seabed is None else settings.seabed.sheet,
     )
+
+
+def _check_room(seabed: SeabedChart, altitude: float) -> None:
+    """Check that there is water over a vehicle that keeps an altitude [m] over the shallowest place of a chart."""
+    shallowest = float(seabed.depths.min())
+    if shallowest < ROOM * altitude:
+        raise InvalidInputError(
+            f"seabed: {seabed.name} is {shallowest:g} m deep where it is shallowest, and the vehicle keeps an altitude "
+            f"of {altitude:g} m, over which it needs as much water; give one at least {ROOM * altitude:g} m deep, or a "
+            "smaller altitude"
+        )

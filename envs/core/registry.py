@@ -14,8 +14,7 @@ from dq_marine.errors import InvalidInputError
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
 
-SINGLE = "dq_marine.envs.core.marine_env:MarineEnv"
-SINGLE_WITH_GOALS = "dq_marine.envs.core.goal_env:GoalMarineEnv"
+SINGLE = "dq_marine.envs.core.making:make_single"
 VECTOR = "dq_marine.envs.vector.vector_env:MarineVectorEnv"
 
 _TASKS: dict[str, TaskDefinition] = {}
@@ -57,7 +56,7 @@ def register_task(definition: TaskDefinition, module: str | None = None) -> None
     if definition.id not in gym.registry:
         gym.register(
             id=definition.id,
-            entry_point=SINGLE_WITH_GOALS if definition.has_goals else SINGLE,
+            entry_point=SINGLE,
             vector_entry_point=VECTOR,
             max_episode_steps=definition.max_episode_steps,
             kwargs={"task": definition.id},

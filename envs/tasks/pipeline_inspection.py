@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -12,13 +13,22 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import bounded_vector, norm
 from dq_marine.checks import finite_number
-from dq_marine.envs.core.ground_settings import DISTURBED, QUIET, GroundSettings, ground_flight, over_ground
+from dq_marine.envs.core.ground_settings import (
+    DISTURBED,
+    QUIET,
+    GroundSettings,
+    check_way,
+    ground_flight,
+    grounds_for,
+    over_ground,
+)
 from dq_marine.envs.core.suitability import paced, unable_to_dive_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Observed, define_task
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, observed_velocity
 from dq_marine.task.ground_flight import FlightRewards as Rewards
 from dq_marine.task.ground_flight import GroundFlight, flight_rewards
+from dq_marine.task.grounds import Grounds, grounds_of, make_wavy_ground
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import along_curve, pipe_seen
 from dq_marine.task.splines import make_spline, make_winding, winding_draws
@@ -27,13 +37,10 @@ from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
 from dq_marine.task.world.beams import NO_ECHO, make_errors, make_fan_across, make_readings
 from dq_marine.task.world.keel import make_keel_over
 from dq_marine.task.world.pipes import LaidPipe, Sight, View, beside_pipe, detected, make_pipe, sight
-from dq_marine.task.world.seabed import WAVE_DRAWS, Ground, make_seabed
+from dq_marine.task.world.seabed import WAVE_DRAWS
 
 WAVES, SPANS, BEAMS = 4, 4, 9  # of the seabed; of the pipe, about a leg each; the middle one is an altimeter
-depth_at, cast, ground_drawn, along = make_seabed(WAVES)
-keel_over, (laid, cast_below) = make_keel_over(depth_at), make_pipe(along, cast)
 (point_at, nearer), wind = make_spline(SPANS), make_winding(SPANS)
-fan = make_fan_across(BEAMS, cast_below)
 drawn_errors, readings = make_errors(BEAMS + 1), make_readings(BEAMS)
 EXACT = (0.0,) * (BEAMS + 1)  # errors before there are readings; with the last, the detector loses the pipe
 AHEAD, ASIDE, ANGLE = 1.0, 1.5, math.radians(60.0)  # of the bow, what the detector sees [altitudes, rad]
@@ -59,9 +66,11 @@ class Settings(GroundSettings):
 
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
+    leg = finite_number("leg", given.leg, least=1.0, most=1e3)
+    check_way(flown := over_ground(given, vehicle), "leg", SPANS * leg * vehicle.dimensions.length)
     return replace(
-        over_ground(given, vehicle),
-        leg=finite_number("leg", given.leg, least=1.0, most=1e3),
+        flown,
+        leg=leg,
         turn=finite_number("turn", given.turn, least=0.0, most=60.0),
         pipe_radius=finite_number("pipe_radius", given.pipe_radius, above=0.0, most=0.25),
     )
@@ -99,7 +108,7 @@ class Metrics(NamedTuple):
 class Memory(NamedTuple):
     """Seabed; control points of the pipe, seen from above [m]; what is seen of them, its errors; speed along [m/s]."""
 
-    ground: Ground
+    ground: Any
     controls: Any
     shown: View
     errors: View
@@ -116,29 +125,65 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     return Parameters(flight, *pipe, tolerance, AHEAD * high, Sight(ASIDE * high, ANGLE))
 
 
-def world(own: Parameters, uniforms: tuple[float, ...]) -> tuple[Ground, Any]:
-    """Return the seabed and the control points of the pipe of an episode."""
-    flight, first = own.flight, START_DRAWS + winding_draws(SPANS)
-    ground = ground_drawn(flight.depth, flight.slope, flight.wave, uniforms, first)
-    return ground, wind((0.0, 0.0, 0.0), own.leg, own.turn, 0.0, uniforms, START_DRAWS)
+@functools.cache
+def make_formulas(grounds: Grounds) -> dict[str, Any]:
+    """Return the formulas that are about a kind of ground, by their names."""
+    depth_at, whole, drawn = grounds.depth, grounds.whole, grounds.drawn
+    keel_over, (laid, cast_below) = make_keel_over(depth_at), make_pipe(grounds.along, grounds.cast)
+    fan = make_fan_across(BEAMS, cast_below)
+
+    def drawn_ground(own: Parameters, uniforms: tuple[float, ...]) -> Any:
+        course, length = math.tau * uniforms[START_DRAWS], SPANS * own.leg
+        way = (length * math.cos(course), length * math.sin(course))
+        return drawn(own.flight, way, uniforms, START_DRAWS + winding_draws(SPANS))
+
+    def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
+        """Return a start about over the pipe's beginning, under way about along it at half the speed or more."""
+        course, off = math.tau * uniforms[START_DRAWS], START_OFF * own.flight.altitude
+        aside, lower = off * (2.0 * uniforms[0] - 1.0), off * (2.0 * uniforms[1] - 1.0)
+        north, east = -aside * math.sin(course), aside * math.cos(course)
+        ground = whole(own.flight, drawn_ground(own, uniforms))
+        depth = depth_at(ground, north, east) - own.radius - own.flight.altitude + lower
+        heading = course + START_TURN * (2.0 * uniforms[2] - 1.0)
+        return under_way((north, east, depth), heading, own.flight.speed * (0.5 + 0.5 * uniforms[3]))
+
+    def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
+        """Return where the vehicle is over the seabed and along the pipe, and what is seen of them."""
+        controls, flight, place = memory.controls, own.flight, motion.position_ned
+        ground = whole(flight, memory.ground)
+        parameter = nearer(controls, nearer(controls, memory.metrics.share_done * SPANS, place), place)
+        ahead = min(parameter + own.ahead / own.leg, float(SPANS))
+        here, soon = point_at(controls, parameter), point_at(controls, ahead)
+        pipe = laid(ground, from_above(here.position_ned), from_above(here.slope_ned), own.radius)
+        by, over = beside_pipe(pipe, motion, flight.keel), keel_over(ground, motion, flight.keel)
+        off, clearance = by.height - flight.altitude, min(over.clearance, by.clearance)
+        errors = (abs(by.starboard), abs(off), abs(by.askew))
+        tally = counted(memory.tally, parameter > ACQUIRED, errors, flight.period)
+        cross, high, askew = means(tally, flight.period)
+        impact = select(clearance < 0.0, norm(motion.velocity.linear), 0.0)
+        ranges = fan(LaidPipe(ground, pipe), place, motion.attitude, flight.reach)
+        seen = sight(motion, from_above(soon.position_ned), from_above(soon.slope_ned), own.ahead)
+        metrics = Metrics(
+            by.starboard, off, by.askew, cross, high, askew, clearance, impact, parameter / SPANS
+        )
+        return Memory(memory.ground, controls, View(ranges, seen), memory.errors, by.speed, tally, metrics)
+
+    def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
+        """Return a new seabed with a pipe, and what is seen of them."""
+        controls = wind((0.0, 0.0, 0.0), own.leg, own.turn, 0.0, uniforms, START_DRAWS)
+        nothing, zeros = View(EXACT, Sight(0.0, 0.0)), Metrics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        blank = Memory(drawn_ground(own, uniforms), controls, nothing, nothing, 0.0, NOTHING_YET, zeros)
+        return update_memory(own, blank, Motion(*begun), Motion(*begun))
+
+    return {"start": start, "initial_memory": initial_memory, "update_memory": update_memory}
 
 
-def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
-    """Return a start about over the pipe's beginning, under way about along it at half the speed or more."""
-    course, off = math.tau * uniforms[START_DRAWS], START_OFF * own.flight.altitude
-    aside, lower = off * (2.0 * uniforms[0] - 1.0), off * (2.0 * uniforms[1] - 1.0)
-    north, east = -aside * math.sin(course), aside * math.cos(course)
-    depth = depth_at(world(own, uniforms)[0], north, east) - own.radius - own.flight.altitude + lower
-    heading = course + START_TURN * (2.0 * uniforms[2] - 1.0)
-    return under_way((north, east, depth), heading, own.flight.speed * (0.5 + 0.5 * uniforms[3]))
+start, initial_memory, update_memory = make_formulas(make_wavy_ground(WAVES)).values()
 
 
-def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
-    """Return a new seabed with a pipe, and what is seen of them."""
-    ground, controls = world(own, uniforms)
-    nothing, zeros = View(EXACT, Sight(0.0, 0.0)), Metrics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    blank = Memory(ground, controls, nothing, nothing, 0.0, NOTHING_YET, zeros)
-    return update_memory(own, blank, Motion(*begun), Motion(*begun))
+def formulas(settings: Settings) -> dict[str, Any]:
+    """Return the formulas for the seabed of the settings."""
+    return make_formulas(grounds_for(settings, WAVES))
 
 
 def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
@@ -147,25 +192,6 @@ def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Mem
     seen = Sight(flight.noise * aside, flight.noise / flight.altitude * turned)
     errors = View(drawn_errors(flight.noise, flight.dropout, uniforms), seen)
     return Memory(memory.ground, memory.controls, memory.shown, errors, *memory[4:])
-
-
-def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
-    """Return where the vehicle is over the seabed and along the pipe, and what is seen of them."""
-    ground, controls, flight, place = memory.ground, memory.controls, own.flight, motion.position_ned
-    parameter = nearer(controls, nearer(controls, memory.metrics.share_done * SPANS, place), place)
-    ahead = min(parameter + own.ahead / own.leg, float(SPANS))
-    here, soon = point_at(controls, parameter), point_at(controls, ahead)
-    pipe = laid(ground, from_above(here.position_ned), from_above(here.slope_ned), own.radius)
-    by, over = beside_pipe(pipe, motion, flight.keel), keel_over(ground, motion, flight.keel)
-    off, clearance = by.height - flight.altitude, min(over.clearance, by.clearance)
-    errors = (abs(by.starboard), abs(off), abs(by.askew))
-    tally = counted(memory.tally, parameter > ACQUIRED, errors, flight.period)
-    cross, high, askew = means(tally, flight.period)
-    impact = select(clearance < 0.0, norm(motion.velocity.linear), 0.0)
-    ranges = fan(LaidPipe(ground, pipe), place, motion.attitude, flight.reach)
-    seen = sight(motion, from_above(soon.position_ned), from_above(soon.slope_ned), own.ahead)
-    metrics = Metrics(by.starboard, off, by.askew, cross, high, askew, clearance, impact, parameter / SPANS)
-    return Memory(ground, controls, View(ranges, seen), memory.errors, by.speed, tally, metrics)
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
@@ -230,7 +256,9 @@ def terminated(own: Parameters, now: Situation) -> Any:
 def scenery(own: Parameters, memory: Memory) -> Any:
     """Return the pipe and the seabed about it, for drawing."""
     route = along_curve(lambda s: point_at(memory.controls, s).position_ned, float(SPANS))
-    return pipe_seen(depth_at, memory.ground, route, own.radius, 2.0 * own.flight.altitude)
+    grounds = grounds_of(own.flight, WAVES)
+    ground = grounds.whole(own.flight, memory.ground)
+    return pipe_seen(grounds.depth, ground, route, own.radius, 2.0 * own.flight.altitude)
 
 
 define_task(
@@ -239,6 +267,7 @@ define_task(
     summary="Follow a pipe on an uneven seabed by sonar and a detector, in an unseen current.",
     draws=START_DRAWS + winding_draws(SPANS) + WAVES * WAVE_DRAWS,
     sense_draws=BEAMS + 3,
+    lasting=("seabed",),
     units={name: UNITS.get(name.split("_")[-2:][0], "m") for name in Metrics._fields[:-1]},
     tolerances={"cross_track_error": LEAST, "altitude_error": LEAST},
     levels={"easy": {"slope": 0.15, "turn": 15.0, **QUIET}, "medium": {"current": 0.2}, "hard": DISTURBED},

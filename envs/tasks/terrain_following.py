@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -11,13 +12,22 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.vector3 import bounded, bounded_vector
 from dq_marine.checks import finite_number
-from dq_marine.envs.core.ground_settings import DISTURBED, QUIET, GroundSettings, ground_flight, over_ground
+from dq_marine.envs.core.ground_settings import (
+    DISTURBED,
+    QUIET,
+    GroundSettings,
+    check_way,
+    ground_flight,
+    grounds_for,
+    over_ground,
+)
 from dq_marine.envs.core.suitability import paced, unable_to_dive_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, observed_velocity
 from dq_marine.task.ground_flight import FlightRewards as Rewards
 from dq_marine.task.ground_flight import GroundFlight, flight_rewards
+from dq_marine.task.grounds import Grounds, grounds_of, make_wavy_ground
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import ground_seen
 from dq_marine.task.starts import under_way
@@ -25,11 +35,9 @@ from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
 from dq_marine.task.tracks import on_track
 from dq_marine.task.world.beams import make_errors, make_fan_ahead, make_readings
 from dq_marine.task.world.keel import make_keel_over
-from dq_marine.task.world.seabed import WAVE_DRAWS, Ground, make_seabed
+from dq_marine.task.world.seabed import WAVE_DRAWS
 
 WAVES, BEAMS = 4, 6  # of the seabed; and beams, the last of which is the altimeter
-depth_at, cast, ground_drawn, _ = make_seabed(WAVES)
-keel_over, fan = make_keel_over(depth_at), make_fan_ahead(BEAMS, cast)
 drawn_errors, readings = make_errors(BEAMS), make_readings(BEAMS)
 EXACT = (0.0,) * BEAMS  # errors before there are readings
 START_TURN, START_OFF, START_DRAWS = math.radians(20.0), 0.2, 4  # from the track [rad], the altitude [share]
@@ -49,7 +57,8 @@ class Settings(GroundSettings):
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
     track = finite_number("track", given.track, least=1.0, most=1e4)
-    return replace(over_ground(given, vehicle), track=track)
+    check_way(flown := over_ground(given, vehicle), "track", track * vehicle.dimensions.length)
+    return replace(flown, track=track)
 
 
 class Parameters(NamedTuple):
@@ -81,7 +90,7 @@ class Memory(NamedTuple):
     of the speed's, tallied; metrics.
     """
 
-    ground: Ground
+    ground: Any
     course: Level
     ranges: Any
     errors: Any
@@ -97,51 +106,69 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     return Parameters(flight, settings.track * length, max(LEAST, TOLERANCE * flight.altitude))
 
 
-def drawn_ground(flight: GroundFlight, uniforms: tuple[float, ...]) -> Ground:
-    """Return the seabed of an episode."""
-    return ground_drawn(flight.depth, flight.slope, flight.wave, uniforms, START_DRAWS)
+def course_of(uniforms: tuple[float, ...]) -> Level:
+    """Return the course of the track of an episode, a unit vector."""
+    return math.cos(math.tau * uniforms[0]), math.sin(math.tau * uniforms[0])
 
 
-def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
-    """Return a start about at the altitude, under way about along the track at half the speed or more."""
-    heading = math.tau * uniforms[0] + START_TURN * (2.0 * uniforms[1] - 1.0)
-    altitude = own.flight.altitude * (1.0 + START_OFF * (2.0 * uniforms[2] - 1.0))
-    depth = depth_at(drawn_ground(own.flight, uniforms), 0.0, 0.0) - altitude
-    return under_way((0.0, 0.0, depth), heading, own.flight.speed * (0.5 + 0.5 * uniforms[3]))
+@functools.cache
+def make_formulas(grounds: Grounds) -> dict[str, Any]:
+    """Return the formulas that are about a kind of ground, by their names."""
+    depth_at, whole, drawn = grounds.depth, grounds.whole, grounds.drawn
+    keel_over, fan = make_keel_over(depth_at), make_fan_ahead(BEAMS, grounds.cast)
+
+    def drawn_ground(own: Parameters, uniforms: tuple[float, ...]) -> Any:
+        course = course_of(uniforms)
+        return drawn(own.flight, (own.track * course[0], own.track * course[1]), uniforms, START_DRAWS)
+
+    def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
+        """Return a start about at the altitude, under way about along the track at half the speed or more."""
+        heading = math.tau * uniforms[0] + START_TURN * (2.0 * uniforms[1] - 1.0)
+        altitude = own.flight.altitude * (1.0 + START_OFF * (2.0 * uniforms[2] - 1.0))
+        depth = depth_at(whole(own.flight, drawn_ground(own, uniforms)), 0.0, 0.0) - altitude
+        return under_way((0.0, 0.0, depth), heading, own.flight.speed * (0.5 + 0.5 * uniforms[3]))
+
+    def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
+        """Return where the vehicle is over the seabed and along the track, and what the beams meet."""
+        flight, here = own.flight, on_track(memory.course, motion)
+        ground = whole(flight, memory.ground)
+        over = keel_over(ground, motion, flight.keel)
+        off, share = over.altitude - flight.altitude, here.along / own.track
+        errors = (off * off, abs(here.speed - flight.speed), 0.0)
+        tally = counted(memory.tally, share > ACQUIRED, errors, flight.period)
+        squared, slower, _ = means(tally, flight.period)
+        return Memory(
+            memory.ground,
+            memory.course,
+            fan(ground, motion.position_ned, motion.attitude, flight.reach),
+            memory.errors,
+            here.along - memory.metrics.share_done * own.track,
+            here.starboard,
+            tally,
+            Metrics(off, math.sqrt(squared), over.clearance, over.impact_speed, slower, share),
+        )
+
+    def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
+        """Return a new seabed, and what the beams meet of it."""
+        ground, nothing = drawn_ground(own, uniforms), Metrics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        blank = Memory(ground, course_of(uniforms), EXACT, EXACT, 0.0, 0.0, NOTHING_YET, nothing)
+        return update_memory(own, blank, Motion(*begun), Motion(*begun))
+
+    return {"start": start, "initial_memory": initial_memory, "update_memory": update_memory}
 
 
-def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
-    """Return a new seabed, and what the beams meet of it."""
-    course = (math.cos(math.tau * uniforms[0]), math.sin(math.tau * uniforms[0]))
-    ground, nothing = drawn_ground(own.flight, uniforms), Metrics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    blank = Memory(ground, course, EXACT, EXACT, 0.0, 0.0, NOTHING_YET, nothing)
-    return update_memory(own, blank, Motion(*begun), Motion(*begun))
+start, initial_memory, update_memory = make_formulas(make_wavy_ground(WAVES)).values()
+
+
+def formulas(settings: Settings) -> dict[str, Any]:
+    """Return the formulas for the seabed of the settings."""
+    return make_formulas(grounds_for(settings, WAVES))
 
 
 def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
     """Return the memory with new errors of the beams' readings."""
     errors = drawn_errors(own.flight.noise, own.flight.dropout, uniforms)
     return Memory(memory.ground, memory.course, memory.ranges, errors, *memory[4:])
-
-
-def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
-    """Return where the vehicle is over the seabed and along the track, and what the beams meet."""
-    flight, ground, here = own.flight, memory.ground, on_track(memory.course, motion)
-    over = keel_over(ground, motion, flight.keel)
-    off, share = over.altitude - flight.altitude, here.along / own.track
-    errors = (off * off, abs(here.speed - flight.speed), 0.0)
-    tally = counted(memory.tally, share > ACQUIRED, errors, flight.period)
-    squared, slower, _ = means(tally, flight.period)
-    return Memory(
-        ground,
-        memory.course,
-        fan(ground, motion.position_ned, motion.attitude, flight.reach),
-        memory.errors,
-        here.along - memory.metrics.share_done * own.track,
-        here.starboard,
-        tally,
-        Metrics(off, math.sqrt(squared), over.clearance, over.impact_speed, slower, share),
-    )
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
@@ -207,14 +234,18 @@ def terminated(own: Parameters, now: Situation) -> Any:
 def scenery(own: Parameters, memory: Memory) -> Any:
     """Return the seabed along the track, for drawing."""
     north, east = memory.course
+    grounds = grounds_of(own.flight, WAVES)
     track = ((0.0, 0.0), (own.track * north, own.track * east))
-    return ground_seen(depth_at, memory.ground, track, 3.0 * own.flight.altitude)
+    return ground_seen(
+        grounds.depth, grounds.whole(own.flight, memory.ground), track, 3.0 * own.flight.altitude
+    )
 
 
 def goal(own: Parameters, memory: Memory) -> Goal:
     """Return the end of the track at its altitude, for drawing."""
     north, east = (own.track * part for part in memory.course)
-    depth = depth_at(memory.ground, north, east) - own.flight.altitude
+    grounds = grounds_of(own.flight, WAVES)
+    depth = grounds.depth(grounds.whole(own.flight, memory.ground), north, east) - own.flight.altitude
     return goal_along((north, east, depth), (north, east, 0.0))
 
 
@@ -224,6 +255,7 @@ define_task(
     summary="Keep an altitude over an uneven seabed that beams tell of, along a track, in an unseen current.",
     draws=START_DRAWS + WAVES * WAVE_DRAWS,
     sense_draws=BEAMS,
+    lasting=("seabed",),
     units={name: "m/s" if "speed" in name else "m" for name in Metrics._fields[:-1]},
     tolerances={"altitude_error": LEAST},
     levels={"easy": {"slope": 0.3, **QUIET}, "medium": {"current": 0.2}, "hard": {"slope": 0.8, **DISTURBED}},

@@ -13,6 +13,7 @@ from dq_marine.backend.pcg64 import fill_seeded, state_of, words_of
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.goal_env import GoalMarineEnv
 from dq_marine.envs.core.marine_env import MarineEnv
+from dq_marine.envs.core.pixels import picture_size
 from dq_marine.envs.vector.lane_memory import LaneMemory
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.episode import EpisodeParameters
@@ -141,14 +142,19 @@ def made_singles(
     """Return single environments: one that stands for all n, or where `vehicle` is a list, one for each.
 
     Raises:
-        InvalidInputError: there is not a vehicle for each, they differ in what is to be computed, or something is to
-            be recorded.
+        InvalidInputError: there is not a vehicle for each, they differ in what is to be computed, something is to be
+            recorded, or pictures are to be observed.
         VehicleFileError: a vehicle file is wrong.
     """
     made = GoalMarineEnv if definition.has_goals else MarineEnv
     if arguments.pop("record", False):
         raise InvalidInputError(
             "record = True; a vector environment records nothing, make a single one for that"
+        )
+    if picture_size(arguments.pop("observation", "numbers")) is not None:
+        raise InvalidInputError(
+            "observation = 'pixels'; a vector environment observes numbers, for a browser would draw each of its "
+            "pictures: make a single one for that, or gym.make_vec(..., vectorization_mode='sync')"
         )
     if not isinstance(vehicle, list | tuple):
         return [made(definition, vehicle, **arguments)]

@@ -76,6 +76,30 @@ def test_a_beam_ends_at_the_chart_and_never_passes_it(seed, heading, tilt):
     assert CHART.cast(own, origin, direction, 2.0) == 2.0
 
 
+@given(seed=seeds, heading=st.floats(-math.pi, math.pi), dip=st.floats(-0.3, 0.5))
+def test_a_beam_that_grazes_a_chart_is_followed_to_where_it_meets_it(seed, heading, dip):
+    own, reach = chart(seed), 20.0
+    origin = (1.0, 14.0, CHART.depth(own, 1.0, 14.0) - 1.0)
+    level = math.cos(dip)
+    direction = (level * math.cos(heading), level * math.sin(heading), math.sin(dip))
+    found = CHART.cast(own, origin, direction, reach)
+    ways = np.arange(0.0, reach, 0.005)
+    points = np.array(origin) + ways[:, None] * np.array(direction)
+    below = [CHART.depth(own, x, y) <= z for x, y, z in points]
+    marched = ways[below.index(True)] if any(below) else reach
+    assert marched - 0.006 <= found <= marched + 1e-9
+
+
+@given(seed=seeds, north=norths, east=easts, heading=st.floats(-math.pi, math.pi))
+def test_the_growth_of_the_depth_is_what_the_depth_gains_on_a_short_way(seed, north, east, heading):
+    own, way, short = chart(seed), (math.cos(heading), math.sin(heading)), 1e-6
+    depth, growth = CHART.along(own, north, east, *way)
+    assert depth == CHART.depth(own, north, east)
+    ends = (CHART.depth(own, north + side * short * way[0], east + side * short * way[1]) for side in (1, -1))
+    gained = [(end - depth) / (side * short) for end, side in zip(ends, (1, -1), strict=True)]
+    assert min(abs(growth - one) for one in gained) < 1e-4  # on an edge between samples only one side agrees
+
+
 @given(point=st.tuples(coordinate, coordinate, coordinate))
 def test_a_grid_has_the_distance_within_it_and_less_outside(point):
     exact, found = sphere_distance(point, CENTER, RADIUS), GRID_DISTANCE(ball(), point)

@@ -5,6 +5,7 @@ Between samples a depth is bilinear and a distance trilinear; beyond its edges a
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -16,7 +17,10 @@ from dq_marine.algebra.vector3 import Vector3, add_scaled, norm, scale, subtract
 from dq_marine.task.world.seabed import LEAST_CLOSING
 
 CHART_TRACING = 32
-"""Steps of a beam to a charted seabed, which has no bend to go by: one in all where the beam points straight down."""
+"""Steps of a beam to a charted seabed: each to the end of a patch, to the seabed, or as far as the slope lets it."""
+
+FAR = 1e9
+"""Metres that no beam goes."""
 
 
 class Cell(NamedTuple):
@@ -46,6 +50,22 @@ class Chart(NamedTuple):
     depths: Table
 
 
+class Patch(NamedTuple):
+    """A chart from a place on, a level way t along a beam [m]: depth + growth t + bend t^2 as far as the patch goes.
+
+    Attributes:
+        depth: [m].
+        growth: per metre.
+        bend: [1/m].
+        ends: where the way comes to other samples [m].
+    """
+
+    depth: float
+    growth: float
+    bend: float
+    ends: float
+
+
 class DistanceGrid(NamedTuple):
     """A shape: place of the first sample and distance between samples [m], signed distances [m].
 
@@ -63,10 +83,12 @@ class Charted(NamedTuple):
     Attributes:
         depth: (chart, north, east) -> depth there [m].
         cast: (chart, origin, direction, reach) -> range along a ray [m].
+        along: (chart, north, east, a level direction's parts) -> depth there [m], and its growth per metre that way.
     """
 
     depth: Callable[[Chart, float, float], float]
     cast: Callable[[Chart, Vector3, Vector3, float], float]
+    along: Callable[[Chart, float, float, float, float], tuple[float, float]]
 
 
 def make_chart(rows: int, columns: int) -> Charted:
@@ -83,6 +105,29 @@ def make_chart(rows: int, columns: int) -> Charted:
         )
         return _between(row.share, south, farther)
 
+    def patch_at(chart: Chart, north: float, east: float, way_north: float, way_east: float) -> Patch:
+        row = _cell((north - chart.north) / chart.spacing, last_row)
+        column = _cell((east - chart.east) / chart.spacing, last_column)
+        place = row.first * width + column.first
+        near, far = entry(chart.depths, place), entry(chart.depths, place + 1.0)
+        next_near, next_far = entry(chart.depths, place + width), entry(chart.depths, place + width + 1.0)
+        south, north_side = _between(column.share, near, far), _between(column.share, next_near, next_far)
+        north_rate, east_rate = way_north / chart.spacing, way_east / chart.spacing
+        ends = min(_until_left(row, north_rate), _until_left(column, east_rate))
+        # Beyond an edge nothing changes across it.
+        north_rate = select(row.beyond == 0.0, north_rate, 0.0)
+        east_rate = select(column.beyond == 0.0, east_rate, 0.0)
+        growth = north_rate * (north_side - south)
+        growth = growth + east_rate * _between(row.share, far - near, next_far - next_near)
+        bend = north_rate * east_rate * ((next_far - next_near) - (far - near))
+        return Patch(_between(row.share, south, north_side), growth, bend, ends)
+
+    def along(
+        chart: Chart, north: float, east: float, way_north: float, way_east: float
+    ) -> tuple[float, float]:
+        patch = patch_at(chart, north, east, way_north, way_east)
+        return patch.depth, patch.growth
+
     def cast(chart: Chart, origin: Vector3, direction: Vector3, reach: float) -> float:
         # The height falls by the slope's bound on the level and by the beam's own sinking at most.
         closing = chart.steepest * level_length((direction[0], direction[1])) + direction[2]
@@ -90,11 +135,13 @@ def make_chart(rows: int, columns: int) -> Charted:
         travelled = 0.0 * origin[0]
         for _ in range(CHART_TRACING):
             point = add_scaled(origin, travelled, direction)
-            height = depth(chart, point[0], point[1]) - point[2]
-            travelled = min(travelled + max(height, 0.0) * per_height, reach)
+            patch = patch_at(chart, point[0], point[1], direction[0], direction[1])
+            height = max(patch.depth - point[2], 0.0)
+            met = _first_fall(height, patch.growth - direction[2], patch.bend)
+            travelled = min(travelled + max(height * per_height, min(met, patch.ends)), reach)
         return travelled
 
-    return Charted(depth, cast)
+    return Charted(depth, cast, along)
 
 
 def charted(depths: Sequence[Sequence[float]], north: float, east: float, spacing: float) -> Chart:
@@ -159,6 +206,25 @@ def _cell(place: float, last: float) -> Cell:
     held = max(0.0, min(last, place))
     first = max(0.0, min(last - 1.0, rounded(held - 0.5)))
     return Cell(first, held - first, place - held)
+
+
+def _until_left(cell: Cell, rate: float) -> float:
+    """Return how far a beam goes until it leaves a cell [m], or comes to the first; its rate is in cells per metre."""
+    slowest = 1.0 / FAR  # a beam that is slower across a cell stays in it, though it may run along its edge
+    inside = select(rate > slowest, 1.0 - cell.share, select(rate < -slowest, cell.share, FAR))
+    outside = select(cell.beyond * rate < 0.0, abs(cell.beyond), FAR)
+    return select(cell.beyond == 0.0, inside, outside) / max(abs(rate), slowest)
+
+
+def _first_fall(height: float, growth: float, bend: float) -> float:
+    """Return the first t of height + growth t + bend t^2 = 0 [m], without a difference; `FAR` if there is none.
+
+    Press et al. 2007, Numerical Recipes, 5.6.
+    """
+    under = growth * growth - 4.0 * bend * height
+    spread = math.sqrt(max(under, 0.0)) - growth
+    met = (under >= 0.0) & (spread > 0.0)
+    return select(met, 2.0 * height / max(spread, 1.0 / FAR), FAR)
 
 
 def _pair(samples: Table, place: float, share: float) -> float:

@@ -16,13 +16,17 @@ from dq_marine.envs.core.definition import EpisodeContext
 from dq_marine.envs.tasks import pipeline_inspection as task
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.body import Motion
+from dq_marine.task.grounds import make_wavy_ground
 from dq_marine.task.protocol import Situation
 from dq_marine.task.splines import winding_draws
+from dq_marine.task.world.pipes import make_pipe
 from dq_marine.vehicles import load_vehicle
 
 ID = "dq_marine/PipelineInspection-v0"
 QUIET = {"noise": 0.0, "dropout": 0.0}
 VEHICLE = load_vehicle("remus100")
+GROUNDS = make_wavy_ground(task.WAVES)
+LAID = make_pipe(GROUNDS.along, GROUNDS.cast).laid
 DRAWS = task.START_DRAWS + winding_draws(task.SPANS) + 4 * task.WAVES
 
 
@@ -49,7 +53,7 @@ def glide(own, seed, aside=0.0, high=lambda done: 0.0, skew=0.0):
         )  # straight on at the end
         course = math.atan2(way[1], way[0])
         north, east = at[0] - aside * math.sin(course), at[1] + aside * math.cos(course)
-        axis = task.laid(memory.ground, at[:2], way[:2], own.radius).on_axis[2]
+        axis = LAID(memory.ground, at[:2], way[:2], own.radius).on_axis[2]
         depth = axis - own.flight.altitude - high(parameter / task.SPANS)
         attitude = quaternion_from_euler(0.0, 0.0, course + skew)
         motion = Motion((north, east, depth), attitude, Spatial(still, (own.flight.speed, 0.0, 0.0)))

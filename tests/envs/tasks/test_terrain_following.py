@@ -17,12 +17,14 @@ from dq_marine.envs.core.suitability import cruising_speed
 from dq_marine.envs.tasks import terrain_following as task
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.body import Motion
+from dq_marine.task.grounds import make_wavy_ground
 from dq_marine.task.protocol import Situation
 from dq_marine.vehicles import load_vehicle
 
 ID = "dq_marine/TerrainFollowing-v0"
 QUIET = {"noise": 0.0, "dropout": 0.0}
 VEHICLE = load_vehicle("remus100")
+DEPTH_AT = make_wavy_ground(task.WAVES).depth
 
 
 def made(**keywords):
@@ -48,7 +50,7 @@ def glide(own, seed, pace=1.0, high=lambda along: 0.0):
     while len(found) < 400 and not (found and task.terminated(own, found[-1])):
         along += speed * own.flight.period
         place = (along * north, along * east)
-        depth = task.depth_at(memory.ground, *place) - own.flight.altitude - high(along)
+        depth = DEPTH_AT(memory.ground, *place) - own.flight.altitude - high(along)
         motion = Motion((*place, depth), attitude, Spatial((0.0, 0.0, 0.0), (speed, 0.0, 0.0)))
         memory = task.update_memory(own, memory, motion, motion)
         found.append(Situation(motion, memory, task.measure(own, memory, motion), 0.0, 3.0))
