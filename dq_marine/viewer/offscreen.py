@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -76,14 +74,15 @@ class OffscreenViewer(Closable):
             ViewerError: the viewer is closed, or its server or browser has gone.
         """
         self._stage.draw(snapshot)
-        png = self._server.capture(self._timeout, self._check_browser)
+        pixels = self._server.capture(self._timeout, self._check_browser)
         self._timeout = PICTURE_TIMEOUT
-        picture = self._image.open(io.BytesIO(png)).convert("RGB")
-        if picture.size != self._size:
-            raise ViewerError(f"the browser drew {picture.size} pixels instead of {self._size}")
+        size = pixels.shape[1::-1]
+        if size != self._size:
+            raise ViewerError(f"the browser drew {size} pixels instead of {self._size}")
         if self._caption:
+            picture = self._image.fromarray(pixels)
             write_caption(picture, snapshot, afloat=self._afloat)
-        pixels: NDArray[np.uint8] = np.array(picture)
+            pixels = np.array(picture)
         return pixels
 
     def clear_trail(self) -> None:

@@ -16,7 +16,6 @@ anywhere in the user's own browser.
 
 from __future__ import annotations
 
-import base64
 import json
 import os
 import sys
@@ -40,6 +39,7 @@ from zmq.eventloop.zmqstream import ZMQStream
 from dq_marine.viewer.libraries import meshcat_page_folder
 from dq_marine.viewer.transport.pages import CAPTURE_PAGE, LIVE_PAGE
 from dq_marine.viewer.transport.panel_socket import POLICY_VIOLATION, PanelHub, PanelSocket
+from dq_marine.viewer.transport.picture import is_picture
 
 LOOPBACK = "127.0.0.1"
 LOOPBACK_NAMES = r"^(127\.0\.0\.1|localhost)$"
@@ -50,9 +50,8 @@ SHOW_PANEL, TAKE_WORDS = "show_panel", "take_words"
 KINDS = frozenset(MESHCAT_COMMANDS) | {"capture_image", SHOW_PANEL, TAKE_WORDS}
 """Messages that are carried out."""
 
-PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
-LARGEST_MESSAGE = 256 * 2**20
-"""Bytes in a message from a page; a picture of 8000 x 8000 pixels fits in."""
+LARGEST_MESSAGE = 257 * 2**20
+"""Bytes in a message from a page; a picture of 8192 x 8192 pixels fits in."""
 
 
 class PageHandler(tornado.web.RequestHandler):
@@ -86,11 +85,10 @@ class PageSocket(WebSocketHandler):  # type: ignore[misc]  # meshcat has no type
 
     def on_message(self, message: str | bytes) -> None:
         """Pass a picture on, if one is still wanted; close on anything else."""
-        picture = picture_in(message)
-        if picture is None:
+        if not is_picture(message):
             self.close(POLICY_VIOLATION, "not a picture")
         elif self.bridge.wants_picture:
-            self.bridge.give_picture(picture)
+            self.bridge.give_picture(message)
 
 
 class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has no type hints
@@ -162,16 +160,6 @@ class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has n
         """Answer the request for a picture."""
         self.wants_picture = False
         self.zmq_stream.send(picture)
-
-
-def picture_in(message: str | bytes) -> bytes | None:
-    """Return the picture that a page has sent, a PNG file; None if it is something else."""
-    try:
-        start, _, code = json.loads(message)["data"].partition(",")
-        picture = base64.b64decode(code, validate=True)
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
-        return None
-    return picture if start == "data:image/png;base64" and picture.startswith(PNG_SIGNATURE) else None
 
 
 def main() -> None:

@@ -13,9 +13,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.libraries import drawing_library, meshcat_page_folder
 from dq_marine.viewer.transport.messages import CAPTURE_IMAGE, TAKE_WORDS, Message
+from dq_marine.viewer.transport.picture import pixels_of
 
 START_TIMEOUT = 30.0
 REPLY_TIMEOUT = 10.0
@@ -87,20 +91,20 @@ class ServerProcess:
         words: list[dict[str, Any]] = json.loads(self._request(TAKE_WORDS, REPLY_TIMEOUT))
         return words
 
-    def capture(self, timeout: float, check: Callable[[], None]) -> bytes:
-        """A picture of what the connected page shows after all messages sent so far.
+    def capture(self, timeout: float, check: Callable[[], None]) -> NDArray[np.uint8]:
+        """A picture of what the connected page, which must be the one for pictures, shows after all messages so far.
 
         Args:
             timeout: longest wait for the page and its picture [s].
             check: called during the wait; raises when there is no hope left.
 
         Returns:
-            A PNG file.
+            Red, green and blue of every pixel, shape (height, width, 3).
 
         Raises:
             ViewerError: no picture came in time.
         """
-        return self._request(CAPTURE_IMAGE, timeout, check)
+        return pixels_of(self._request(CAPTURE_IMAGE, timeout, check))
 
     def close(self) -> None:
         """End the server and wait for its end. May be called again."""

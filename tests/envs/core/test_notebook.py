@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import re
+import time
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from viewer.samples import ROV, snapshot
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.viewer import LiveViewer
+from dq_marine.viewer.controls import LEFT, Event
 from dq_marine.viewer.framed import framed_address
 
 FRAME = "document.querySelector('iframe')?.contentWindow"
@@ -95,6 +97,18 @@ def test_a_live_page_lives_inside_a_page_from_elsewhere(tmp_path: Path) -> None:
     with LiveViewer(ROV) as viewer:
         viewer.draw(snapshot())
         address = shown(tmp_path, framed_address(viewer.url))
-        with open_page(address, ready="document.querySelector('iframe')"):
-            picture = viewer._server.capture(120.0, lambda: None)
-    assert picture.startswith(b"\x89PNG")
+        with open_page(address, ready="document.querySelector('iframe')") as page:
+            for patience in (
+                1.0,
+                2.0,
+                4.0,
+                8.0,
+                16.0,
+                32.0,
+            ):  # until it has connected, which a reload then ends
+                time.sleep(patience)
+                page.evaluate("{ const frame = document.querySelector('iframe'); frame.src = frame.src; }")
+                time.sleep(0.5)
+                if Event(LEFT) in viewer.events():
+                    return
+    pytest.fail("the live page never connected")
