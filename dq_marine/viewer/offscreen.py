@@ -59,10 +59,8 @@ class OffscreenViewer(Closable):
         self._size = (width, height)
         self._caption, self._afloat = caption, shape.floats
         self._timeout = FIRST_PICTURE_TIMEOUT
-        self._server = ServerProcess()
+        self._server = ServerProcess(self._open_browser)
         self._stage = Stage(self._server, shape, floor_depth)
-        page = f"{self._server.web_url}capture?width={width}&height={height}"
-        self._browser = HeadlessBrowser(page, width, height)
 
     def render(self, snapshot: Snapshot) -> NDArray[np.uint8]:
         """A picture of a snapshot.
@@ -96,6 +94,10 @@ class OffscreenViewer(Closable):
         """End server and browser. May be called again."""
         self._browser.close()
         self._server.close()
+
+    def _open_browser(self, web_url: str) -> None:
+        width, height = self._size
+        self._browser = HeadlessBrowser(f"{web_url}capture?width={width}&height={height}", width, height)
 
     def _check_browser(self) -> None:
         if not self._browser.running:
