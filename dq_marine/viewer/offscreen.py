@@ -59,7 +59,11 @@ class OffscreenViewer(Closable):
         self._size = (width, height)
         self._caption, self._afloat = caption, shape.floats
         self._timeout = FIRST_PICTURE_TIMEOUT
-        self._server = ServerProcess(self._open_browser)
+        try:
+            self._server = ServerProcess(self._open_browser)
+        except ViewerError:
+            self._browser.close()
+            raise
         self._stage = Stage(self._server, shape, floor_depth)
 
     def render(self, snapshot: Snapshot) -> NDArray[np.uint8]:

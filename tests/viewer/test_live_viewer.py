@@ -65,6 +65,15 @@ def test_meshcat_scenery_is_hidden(page: Page) -> None:
         assert page.node(path, "visible") is False
 
 
+def test_what_cannot_be_seen_is_not_drawn(viewer: LiveViewer, page: Page) -> None:
+    """Its node stays visible, which a person may switch off and on."""
+    for time, force in ((1.1, 40.0), (1.2, 0.0), (1.3, 40.0)):
+        draw(viewer, page, time, wrench_body=[force, 0, 0, 0, 0, 0])
+        assert page.node("/world/thrust", "children[0].visible") is (force > 0.0)
+        assert page.node("/world/thrust", "visible") is True
+        assert page.node("/world/vehicle", "visible") is True
+
+
 def test_a_page_opened_late_shows_the_present_pose(viewer: LiveViewer, page: Page) -> None:
     draw(viewer, page, 2.0, position_ned=[1.0, -2.0, 6.0], quaternion_body_to_ned=yawed(0.5))
     with open_page(viewer.url) as late:

@@ -69,8 +69,8 @@ class ServerProcess:
             self._stop = weakref.finalize(self, _stop, self._process, os.getpid())
             told = {"secret_key": secret_key.decode(), "path": path, "door": door.fileno()}
         try:
-            _tell(self._process, told)
             meanwhile(self.web_url)
+            _tell(self._process, told)
             address = _read_address(self._process)
         except BaseException:
             self._stop()

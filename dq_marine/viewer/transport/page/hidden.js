@@ -9,8 +9,7 @@
   const set_transform = node_class.set_transform;
   node_class.set_transform = function (matrix) {
     set_transform.call(this, matrix);
-    for (const child of this.object.children) {
-      if (child.name === "<object>") { child.visible = this.object.scale.x > HIDDEN; }
-    }
+    const thing = this.children["<object>"];
+    if (thing) { thing.object.visible = this.object.scale.x > HIDDEN; }
   };
 })();
