@@ -157,6 +157,7 @@ LIVE_PAGE = _page(
     _inline(_file("glide.js")),
     _inline(_file("panel.js")),
     _inline(_file("view.js")),
+    _inline(_file("pace.js")),
 )
 CAPTURE_PAGE = _page(
     "dq-marine",
@@ -180,6 +181,7 @@ REPLAY_PAGE = Template(
         _inline(REPLAY_DATA_SCRIPT),
         _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
         _inline(_file("sea.js")),
+        _inline(_file("pace.js")),
     )
 )
 """The page of a replay, which needs nothing from outside: meshcat and all data go into it."""
