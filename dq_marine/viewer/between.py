@@ -11,7 +11,7 @@ from dq_marine.algebra.dual_quaternion import pose_from_parts, pose_position
 from dq_marine.algebra.screw import sclerp
 from dq_marine.task.things import Thing
 from dq_marine.viewer.placement import Quaternion, Vector3, quaternion_wxyz, vector3
-from dq_marine.viewer.snapshot import FloatArray, Snapshot
+from dq_marine.viewer.snapshot import FloatArray, Snapshot, Thrust
 
 ROUNDING = 1e-9
 """Of a count of pictures, and of the share of the way between two snapshots."""
@@ -57,7 +57,20 @@ def between(earlier: Snapshot, later: Snapshot, time: float) -> Snapshot:
         quaternion_body_to_ned=np.array(attitude),
         wrench_body=_mixed(earlier.wrench_body, later.wrench_body, share),
         current_ned=_mixed(earlier.current_ned, later.current_ned, share),
+        thrusts=tuple(_thrusts_between(earlier.thrusts, later.thrusts, share)),
         things=tuple(_things_between(earlier.things, later.things, share)),
+    )
+
+
+def _thrusts_between(earlier: Sequence[Thrust], later: Sequence[Thrust], share: float) -> Iterable[Thrust]:
+    if len(earlier) != len(later):
+        return earlier
+    return (
+        Thrust(
+            _mixed(one.position_body, other.position_body, share),
+            _mixed(one.force_body, other.force_body, share),
+        )
+        for one, other in zip(earlier, later, strict=True)
     )
 
 

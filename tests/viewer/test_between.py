@@ -12,6 +12,7 @@ from dq_marine.algebra.screw import pose_exp
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.task.things import Column, Thing
 from dq_marine.viewer.between import at_even_times, between, picture_count
+from dq_marine.viewer.snapshot import Thrust
 
 TWIST = Spatial((0.1, -0.2, 0.9), (0.5, 0.1, -0.05))
 
@@ -39,16 +40,22 @@ def test_a_constant_velocity_is_met_exactly() -> None:
 
 
 def test_forces_and_water_change_evenly_and_a_goal_jumps() -> None:
-    earlier = snapshot(goal_position_ned=[0.0, 0.0, 4.0], current_ned=[0.0, 0.2, 0.0])
+    earlier = snapshot(
+        goal_position_ned=[0.0, 0.0, 4.0],
+        current_ned=[0.0, 0.2, 0.0],
+        thrusts=(Thrust(np.array([0.0, 0.2, 0.0]), np.zeros(3)),),
+    )
     later = snapshot(
         time=2.0,
         goal_position_ned=[9.0, 0.0, 4.0],
         wrench_body=[4.0, 0, 0, 0, 0, 8.0],
+        thrusts=(Thrust(np.array([0.0, 0.2, 0.0]), np.array([4.0, 0.0, 0.0])),),
         current_ned=[0.4, 0.2, 0.0],
     )
     shown = between(earlier, later, 0.5)
     assert_allclose(shown.wrench_body, [1.0, 0, 0, 0, 0, 2.0])
     assert_allclose(shown.current_ned, [0.1, 0.2, 0.0])
+    assert_allclose(shown.thrusts[0].force_body, [1.0, 0.0, 0.0])
     assert shown.goal_position_ned is not None
     assert_allclose(shown.goal_position_ned, [0.0, 0.0, 4.0])
     assert between(earlier, later, 0.0) is earlier

@@ -146,14 +146,18 @@ def _inline(script: str) -> str:
 SERVED_MESHCAT = '<script src="main.min.js"></script>\n'
 
 PANEL_STYLE = f"<style>{_file('panel.css')}</style>\n"
+LEGEND = f"<style>{_file('legend.css')}</style>\n{_file('legend.html')}"
+
+SEA = _inline(_file("sea.js")) + _inline(_file("wake.js"))
 
 LIVE_PAGE = _page(
     "dq-marine",
-    CAPTION.replace("$title", "") + PANEL_STYLE + _file("panel.html"),
+    CAPTION.replace("$title", "") + LEGEND + PANEL_STYLE + _file("panel.html"),
     SERVED_MESHCAT,
     _inline(LIVE_SCRIPT + CAPTION_SCRIPT),
-    _inline(_file("sea.js")),
+    SEA,
     _inline(_file("hidden.js")),
+    _inline(_file("legend.js")),
     _inline(_file("glide.js")),
     _inline(_file("panel.js")),
     _inline(_file("view.js")),
@@ -164,7 +168,7 @@ CAPTURE_PAGE = _page(
     "",
     SERVED_MESHCAT,
     _inline(_file("capture.js")),
-    _inline(_file("sea.js")),
+    SEA,
     _inline(_file("hidden.js")),
 )
 
@@ -176,12 +180,13 @@ REPLAY_DATA_SCRIPT = """
 REPLAY_PAGE = Template(
     _page(
         "$title",
-        CAPTION + CONTROLS,
+        CAPTION + CONTROLS + LEGEND.replace("$", "$$"),
         _inline("$meshcat"),
         _inline(REPLAY_DATA_SCRIPT),
         _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
-        _inline(_file("sea.js")),
+        SEA,
         _inline(_file("pace.js")),
+        _inline(_file("legend.js").replace("$", "$$")),  # a template's dollars are doubled
     )
 )
 """The page of a replay, which needs nothing from outside: meshcat and all data go into it."""
