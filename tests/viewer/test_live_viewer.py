@@ -69,8 +69,8 @@ def test_what_cannot_be_seen_is_not_drawn(viewer: LiveViewer, page: Page) -> Non
     """Its node stays visible, which a person may switch off and on."""
     for time, force in ((1.1, 40.0), (1.2, 0.0), (1.3, 40.0)):
         draw(viewer, page, time, wrench_body=[force, 0, 0, 0, 0, 0])
-        assert page.node("/world/thrust", "children[0].visible") is (force > 0.0)
-        assert page.node("/world/thrust", "visible") is True
+        assert page.node("/world/thrust/net", "children[0].visible") is (force > 0.0)
+        assert page.node("/world/thrust/net", "visible") is True
         assert page.node("/world/vehicle", "visible") is True
 
 
