@@ -1,4 +1,4 @@
-"""Flying one episode for people to see: live in the browser, as a replay, as a plot."""
+"""Flying one episode for people to see: live in the browser, as a replay, as a video, as a plot."""
 
 from __future__ import annotations
 
@@ -58,17 +58,23 @@ class Outputs:
         html: a replay is written to this file.
         plot: metrics and actions are drawn into this file.
         trajectory: what was flown is written to this file, see `Episode.columns`.
+        mp4: a video is written to this file, after the flight.
+        fps: of the video [1/s]; None for a picture in each control period.
+        progress: is told what part of the video is done, from 0 to 1.
     """
 
     live: bool = False
     html: Path | None = None
     plot: Path | None = None
     trajectory: Path | None = None
+    mp4: Path | None = None
+    fps: float | None = None
+    progress: Callable[[float], None] = lambda done: None
 
     @property
     def files(self) -> tuple[Path, ...]:
         """Those that are written."""
-        return tuple(path for path in (self.html, self.plot, self.trajectory) if path is not None)
+        return tuple(path for path in (self.html, self.plot, self.trajectory, self.mp4) if path is not None)
 
 
 def fly(
@@ -88,7 +94,7 @@ def fly(
 
     Raises:
         InvalidInputError: the plan is wrong, or a file cannot be written.
-        MissingDependencyError: the viewer's or the plot's libraries are not installed.
+        MissingDependencyError: the viewer's, the plot's or the video's libraries are not installed.
     """
     env, seed = open_flight(plan, outputs)
     try:
@@ -112,7 +118,7 @@ def open_flight(plan: FlightPlan, outputs: Outputs) -> tuple[gym.Env[Any, Any], 
 
     Raises:
         InvalidInputError: the plan is wrong, or a file could not be written after the flight.
-        MissingDependencyError: the plot's library is not installed.
+        MissingDependencyError: the plot's or the video's libraries are not installed.
     """
     _check_files(outputs)
     env = _make(plan, outputs)
@@ -142,6 +148,8 @@ def write_outputs(env: gym.Env[Any, Any], episode: Episode, outputs: Outputs, *,
         save_plot(episode, outputs.plot, title=title)
     if outputs.trajectory is not None:
         write_columns(episode.columns(), outputs.trajectory)
+    if outputs.mp4 is not None:
+        marine(env).save_mp4(outputs.mp4, fps=outputs.fps, progress=outputs.progress)
 
 
 def episode_table(episode: Episode) -> Table:
@@ -200,12 +208,17 @@ def _check_files(outputs: Outputs) -> None:
         check_picture_path(outputs.plot, extra="agents")
     if outputs.trajectory is not None:
         check_trajectory_path(outputs.trajectory)
+    if outputs.mp4 is not None:
+        from dq_marine.viewer.video import check_video
+
+        check_video(outputs.mp4, outputs.fps)
 
 
 def _make(plan: FlightPlan, outputs: Outputs) -> gym.Env[Any, Any]:
     """Return the environment with the plan's time limit, if it has one, in place of its own."""
     mode = "human" if outputs.live else None
-    made = make_environment(plan.environment, render_mode=mode, record=outputs.html is not None)
+    record = outputs.html is not None or outputs.mp4 is not None
+    made = make_environment(plan.environment, render_mode=mode, record=record)
     if plan.seconds is None:
         return made
     inner = marine(made)

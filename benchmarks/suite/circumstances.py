@@ -8,7 +8,10 @@ from dq_marine.report.sources import PACKAGE, fingerprint, sources
 ROOT = PACKAGE.parent
 
 NOT_MEASURED = ("cli", "manoeuvres", "report", "viewer")
-"""Folders of the package that nothing here measures; every other file counts."""
+"""Folders of the package whose changes make no figures old; every other file counts.
+
+The section `viewer` measures one of them: after a change of it, `--only viewer --fresh` measures it again.
+"""
 
 MEASURED_FOLDERS = ("dq_marine", "envs", "agents", "benchmarks")
 """Of the checkout: a commit is marked where they differ from it."""

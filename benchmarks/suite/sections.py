@@ -16,6 +16,7 @@ from suite import (
     schemes,
     tasks,
     terms,
+    viewer,
     water,
 )
 from suite.plan import Section
@@ -37,6 +38,7 @@ SECTIONS: dict[str, Section] = {
         compile_times,
         memory,
         endurance,
+        viewer,
     )
 }
 """By name."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import typer
@@ -77,6 +77,26 @@ def _drop_what_is_unwritten() -> None:
         return
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+@contextlib.contextmanager
+def shown_part(what: str) -> Iterator[Callable[[float], None]]:
+    """Yield a function that shows, on standard error, what part of something is done, from 0 to 1."""
+    from rich.progress import Progress, TaskID
+
+    bar, tasks = Progress(console=error_console, transient=True), list[TaskID]()
+
+    def show(done: float) -> None:
+        if not tasks:
+            bar.start()  # not before: a bar leaves a line behind, and nothing may come of it
+            tasks.append(bar.add_task(what, total=1.0))
+        bar.update(tasks[0], completed=done)
+
+    try:
+        yield show
+    finally:
+        if tasks:
+            bar.stop()
 
 
 def examples(*lines: str) -> str:

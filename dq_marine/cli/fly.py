@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from dq_marine.cli.common import console, examples
+from dq_marine.cli.common import console, examples, shown_part
 from dq_marine.cli.options import (
     Baseline,
     CurrentOption,
@@ -34,6 +34,7 @@ EXAMPLES = examples(
     "dq-marine fly --scenario StationKeeping/cross_current --live",
     "dq-marine fly --scenario my_scenario.toml --run runs/ppo --html policy.html",
     "dq-marine fly --run runs/ppo --html ppo.html --plot ppo.png --seed 3",
+    "dq-marine fly --mp4 flight.mp4 --fps 30",
     "dq-marine fly --agent zero --current 0.2,-0.1,0 --seconds 60 --html drift.html",
     "dq-marine fly --set actuation=thrusters --trajectory flight.csv",
     """dq-marine fly --set 'weather=\\[{"kind": "wind", "speed": 8}]' --vehicle otter --agent zero --plot otter.png""",
@@ -49,6 +50,18 @@ def fly(
         typer.Option("--run", help="Folder of a training run: its policy flies. Load only runs you trust."),
     ] = None,
     html: Annotated[Path | None, typer.Option("--html", help="Write a replay into this file.")] = None,
+    mp4: Annotated[
+        Path | None,
+        typer.Option("--mp4", help="Write a video that runs in real time into this file (.mp4)."),
+    ] = None,
+    fps: Annotated[
+        float | None,
+        typer.Option(
+            "--fps",
+            help="Pictures a second of the video.",
+            show_default="one in each control period, up to 60 a second",
+        ),
+    ] = None,
     plot: Annotated[
         Path | None,
         typer.Option("--plot", help="Draw metrics and actions into this file (.png, .svg, .pdf)."),
@@ -114,7 +127,7 @@ def fly(
     ] = None,
     only_print: PrintPresetOption = False,
 ) -> None:
-    """Fly one episode: live in the browser, into a replay, into a plot, into a table of numbers.
+    """Fly one episode: live in the browser, into a replay, a video or a plot, into a table of numbers.
 
     A scenario is an episode that can be repeated: its start, its currents and its seed are fixed.
     """
@@ -138,7 +151,8 @@ def fly(
         raise InvalidInputError(
             f"--start-distance {start_distance:g} and --scenario {scenario} both say where to start; give one of them"
         )
-    files = Outputs(html=html, plot=plot, trajectory=trajectory)
+    if fps is not None and mp4 is None:
+        raise InvalidInputError(f"--fps {fps:g} is about a video; name its file with --mp4, or leave it out")
     title = f"{run or baselines[0]}, seed {{seed}}"
     if seconds is None and (panel or teleop):
         seconds = SECONDS_WITH_PANEL
@@ -148,18 +162,20 @@ def fly(
         plan = FlightPlan(environment, seconds, seed, start_distance)
     else:
         plan = FlightPlan(environment, seconds, begun.seed if seed is None else seed, start=begun.reset)
-    if panel or teleop:
-        from dq_marine.agents.interactive.flying import fly_interactively, offered_agents
+    with shown_part("Drawing the video") as progress:
+        files = Outputs(html=html, plot=plot, trajectory=trajectory, mp4=mp4, fps=fps, progress=progress)
+        if panel or teleop:
+            from dq_marine.agents.interactive.flying import fly_interactively, offered_agents
 
-        offer = partial(offered_agents, baselines=baselines, runs=runs, seed=plan.seed or 0)
-        episode = fly_interactively(plan, offer, files, title=title, teleoperated=teleop)
-    else:
-        episode = fly_once(
-            plan,
-            lambda env: next(iter(make_agents(baselines, runs, env, seed=plan.seed or 0).values())),
-            replace(files, live=live or not files.files),
-            title=title,
-        )
+            offer = partial(offered_agents, baselines=baselines, runs=runs, seed=plan.seed or 0)
+            episode = fly_interactively(plan, offer, files, title=title, teleoperated=teleop)
+        else:
+            episode = fly_once(
+                plan,
+                lambda env: next(iter(make_agents(baselines, runs, env, seed=plan.seed or 0).values())),
+                replace(files, live=live or not files.files),
+                title=title,
+            )
     console.print(episode_table(episode))
     for note in episode.notes:
         console.print(note, highlight=False, markup=False)

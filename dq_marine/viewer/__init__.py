@@ -1,4 +1,4 @@
-"""Shows vehicles in the sea with meshcat: live in a web page, as pictures, or as a replay file.
+"""Shows vehicles in the sea with meshcat: live in a web page, as pictures, or as a replay or a video file.
 
 Importing this package loads no drawing library; the first viewer or replay does, and names the extra
 to install where one is missing: `pip install "dq-marine[render]"`.
@@ -10,18 +10,22 @@ from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.live import LiveViewer
 from dq_marine.viewer.offscreen import OffscreenViewer
 from dq_marine.viewer.pacing import RealTimePacer
-from dq_marine.viewer.replay import save_replay
+from dq_marine.viewer.replay import Replay, make_replay, save_replay
 from dq_marine.viewer.snapshot import Shape, Snapshot, Thruster
 from dq_marine.viewer.transport.browser import find_chromium
+from dq_marine.viewer.video import save_video
 
 __all__ = [
     "LiveViewer",
     "OffscreenViewer",
     "RealTimePacer",
+    "Replay",
     "Shape",
     "Snapshot",
     "Thruster",
     "ViewerError",
     "find_chromium",
+    "make_replay",
     "save_replay",
+    "save_video",
 ]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -61,10 +59,12 @@ class OffscreenViewer(Closable):
         self._size = (width, height)
         self._caption, self._afloat = caption, shape.floats
         self._timeout = FIRST_PICTURE_TIMEOUT
-        self._server = ServerProcess()
+        try:
+            self._server = ServerProcess(self._open_browser)
+        except ViewerError:
+            self._browser.close()
+            raise
         self._stage = Stage(self._server, shape, floor_depth)
-        page = f"{self._server.web_url}capture?width={width}&height={height}"
-        self._browser = HeadlessBrowser(page, width, height)
 
     def render(self, snapshot: Snapshot) -> NDArray[np.uint8]:
         """A picture of a snapshot.
@@ -76,14 +76,15 @@ class OffscreenViewer(Closable):
             ViewerError: the viewer is closed, or its server or browser has gone.
         """
         self._stage.draw(snapshot)
-        png = self._server.capture(self._timeout, self._check_browser)
+        pixels = self._server.capture(self._timeout, self._check_browser)
         self._timeout = PICTURE_TIMEOUT
-        picture = self._image.open(io.BytesIO(png)).convert("RGB")
-        if picture.size != self._size:
-            raise ViewerError(f"the browser drew {picture.size} pixels instead of {self._size}")
+        size = pixels.shape[1::-1]
+        if size != self._size:
+            raise ViewerError(f"the browser drew {size} pixels instead of {self._size}")
         if self._caption:
+            picture = self._image.fromarray(pixels)
             write_caption(picture, snapshot, afloat=self._afloat)
-        pixels: NDArray[np.uint8] = np.array(picture)
+            pixels = np.array(picture)
         return pixels
 
     def clear_trail(self) -> None:
@@ -97,6 +98,10 @@ class OffscreenViewer(Closable):
         """End server and browser. May be called again."""
         self._browser.close()
         self._server.close()
+
+    def _open_browser(self, web_url: str) -> None:
+        width, height = self._size
+        self._browser = HeadlessBrowser(f"{web_url}capture?width={width}&height={height}", width, height)
 
     def _check_browser(self) -> None:
         if not self._browser.running:

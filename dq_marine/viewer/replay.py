@@ -7,12 +7,14 @@ import html
 import json
 import os
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.files import check_folder, write_whole
+from dq_marine.viewer.framed import framed
 from dq_marine.viewer.libraries import meshcat_page_folder
 from dq_marine.viewer.placement import Placement
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
@@ -25,6 +27,33 @@ from dq_marine.viewer.world.trail import draw_trail
 STEPWISE = 2300
 LINEAR = 2301
 """three.js' names for ways from one keyframe to the next; it turns attitudes by slerp."""
+
+
+@dataclass(frozen=True)
+class Replay:
+    """A recorded motion as one page that plays by itself; a notebook shows it where it is the last value of a cell.
+
+    Attributes:
+        page: HTML, with all that it needs.
+    """
+
+    page: str = field(repr=False)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the page: open it in any browser, play, pause, and drag the slider.
+
+        The file appears complete or not at all; an older one of the same name is replaced.
+
+        Args:
+            path: of the HTML file; its folder must exist.
+
+        Raises:
+            InvalidInputError: the path cannot be written.
+        """
+        write_whole(_checked_target(Path(path)), self.page)
+
+    def _repr_html_(self) -> str:
+        return framed(self.page)
 
 
 def save_replay(
@@ -41,30 +70,47 @@ def save_replay(
 
     Args:
         path: of the HTML file; its folder must exist.
+        snapshots: see `make_replay` for these and the others.
+        shape: the vehicle.
+        floor_depth: depth of the sea floor [m].
+        title: above the clock.
+
+    Raises:
+        InvalidInputError: see `make_replay`; or the path cannot be written.
+        MissingDependencyError: meshcat is not installed.
+    """
+    target = _checked_target(Path(path))
+    make_replay(snapshots, shape, floor_depth=floor_depth, title=title).save(target)
+
+
+def make_replay(
+    snapshots: Sequence[Snapshot], shape: Shape, *, floor_depth: float | None = None, title: str = "dq-marine"
+) -> Replay:
+    """Return a replay.
+
+    Args:
         snapshots: one or more, in the order of increasing time.
         shape: the vehicle.
         floor_depth: depth of the sea floor [m]; None puts one below everything in the replay.
         title: plain text, shown above the clock.
 
     Raises:
-        InvalidInputError: no snapshots, times that do not increase, a `floor_depth` not above 0, or
-            a path
-            that cannot be written.
+        InvalidInputError: no snapshots, times that do not increase, or a `floor_depth` not above 0.
         MissingDependencyError: meshcat is not installed.
     """
-    target = _checked_target(Path(path))
-    times = _checked_times(snapshots)
+    times = checked_times(snapshots)
     if floor_depth is None:
         floor_depth = floor_below(snapshots, shape)
     messages = _messages(snapshots, times, Drawing(shape, checked_floor_depth(floor_depth)))
-    page = REPLAY_PAGE.substitute(
-        title=html.escape(title),
-        # A script ends at the first closing tag, wherever that stands.
-        meshcat=_meshcat_script().replace("</script", "<\\/script"),
-        messages=json.dumps([base64.b64encode(c.packed()).decode() for c in messages]),
-        times=json.dumps(times.tolist()),
+    return Replay(
+        REPLAY_PAGE.substitute(
+            title=html.escape(title),
+            # A script ends at the first closing tag, wherever that stands.
+            meshcat=_meshcat_script().replace("</script", "<\\/script"),
+            messages=json.dumps([base64.b64encode(c.packed()).decode() for c in messages]),
+            times=json.dumps(times.tolist()),
+        )
     )
-    write_whole(target, page)
 
 
 def _checked_target(path: Path) -> Path:
@@ -74,17 +120,21 @@ def _checked_target(path: Path) -> Path:
     return path
 
 
-def _checked_times(snapshots: Sequence[Snapshot]) -> FloatArray:
-    """The times of the snapshots [s]."""
+def checked_times(snapshots: Sequence[Snapshot]) -> FloatArray:
+    """The times of the snapshots [s].
+
+    Raises:
+        InvalidInputError: there are none, or they do not increase.
+    """
     if not snapshots:
-        raise InvalidInputError("there are 0 snapshots; a replay needs at least 1: record some first")
+        raise InvalidInputError("there are 0 snapshots; give at least 1: record some first")
     times = np.array([snapshot.time for snapshot in snapshots])
     stuck = np.flatnonzero(np.diff(times) <= 0.0)
     if len(stuck):
         at = int(stuck[0])
         raise InvalidInputError(
             f"snapshot {at + 1} has time {times[at + 1]:g} s, which is not after the {times[at]:g} s "
-            "of the one before; times must increase: write one replay for each episode"
+            "of the one before; times must increase: write one file for each episode"
         )
     return times
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import os
 from collections.abc import Sequence
 from typing import Any, ClassVar, Unpack
 
@@ -18,13 +17,13 @@ from dq_marine.backend.control_period import ACTION_NOT_FINITE
 from dq_marine.backend.packing import unpack
 from dq_marine.envs.core.action_mapping import whole_action
 from dq_marine.envs.core.beginning import begun_episode
-from dq_marine.envs.core.composed_task import ComposedTask
 from dq_marine.envs.core.currents import turn_current
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.episode import Episode, check_entries, restored_episode, restored_generator
 from dq_marine.envs.core.observation import Observation, as_shown, observation_space
 from dq_marine.envs.core.refusal import integration_report
 from dq_marine.envs.core.shared_memory import parameters_of, task_memory
+from dq_marine.envs.core.shown_task import ShownTask
 from dq_marine.envs.core.start import NO_UNIFORMS, as_chosen, drawn_uniforms
 from dq_marine.envs.core.view import EpisodeView, checked_render_mode
 from dq_marine.errors import InvalidInputError
@@ -41,7 +40,7 @@ from dq_marine.viewer.snapshot import Snapshot
 Action = NDArray[np.float32]
 
 
-class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
+class MarineEnv(ShownTask, gym.Env[Observation, Action]):
     """One vehicle that does a task, driven by body thrust and torque, or by its thrusters. `gym.make` makes one.
 
     Action: Box(-1, 1, (n,)), the thrust and torque of the n actuated axes, in the order surge, sway, heave, roll,
@@ -55,7 +54,7 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
     reward, `is_success`, `current_ned`, `refused` (whether the integrator refused the step: then the episode ends, and
     `refusal` says why), and `vehicle`, its number in the pool, where episodes fly different ones.
 
-    Attributes, besides those of `ComposedTask`:
+    Attributes, besides those of `ComposedTask` and `ShownTask`:
         refusal: why the integrator refused the last step; None if it did not.
         fallback_substeps: of all taken so far, those that plain Newton did not solve (see `integrator.drift`).
     """
@@ -199,19 +198,6 @@ class MarineEnv(ComposedTask, gym.Env[Observation, Action]):
         """Return a picture as `render` does, without the trail that led here."""
         self._running("render")
         return self._view.render_still(self)
-
-    def save_html(self, path: str | os.PathLike[str]) -> None:
-        """Write the episode so far as a standalone page with a timeline (play, pause, scrub).
-
-        Raises:
-            InvalidInputError: the environment was made without `record=True`, or the folder does not exist.
-            MissingDependencyError: meshcat is not installed.
-        """
-        self._view.save_html(path)
-
-    def close(self) -> None:
-        """End whatever rendering started."""
-        self._view.close()
 
     # State
 

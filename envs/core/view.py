@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from dq_marine.viewer.live import LiveViewer
     from dq_marine.viewer.offscreen import OffscreenViewer
     from dq_marine.viewer.playback import Playback
+    from dq_marine.viewer.replay import Replay
 
 
 AHEAD = (1.0, 0.0, 0.0)
@@ -125,13 +127,28 @@ class EpisodeView:
 
     def save_html(self, path: str | os.PathLike[str]) -> None:
         """Write the recorded episode as a standalone page."""
-        if not self._record:
-            raise InvalidInputError(
-                "nothing was recorded; make the environment with record=True, then save_html() after some steps"
-            )
         from dq_marine.viewer.replay import save_replay
 
-        save_replay(path, self._snapshots, self._shape, title=self._title)
+        save_replay(path, self._recorded("save_html"), self._shape, title=self._title)
+
+    def save_mp4(
+        self, path: str | os.PathLike[str], fps: float | None, progress: Callable[[float], None]
+    ) -> None:
+        """Write the recorded episode as a video."""
+        from dq_marine.viewer.video import save_video
+
+        save_video(path, self._recorded("save_mp4"), self._shape, fps=fps, progress=progress)
+
+    def replay(self) -> Replay:
+        """Return the recorded episode as a page."""
+        from dq_marine.viewer.replay import make_replay
+
+        return make_replay(self._recorded("replay"), self._shape, title=self._title)
+
+    @property
+    def url(self) -> str | None:
+        """Address of the live page; None where none is open."""
+        return None if self._live is None else self._live.url
 
     def close(self) -> None:
         """Close page and pictures; both open again when asked for."""
@@ -139,6 +156,13 @@ class EpisodeView:
             if viewer is not None:
                 viewer.close()
         self._live = self._offscreen = self._playback = None
+
+    def _recorded(self, door: str) -> list[Snapshot]:
+        if not self._record:
+            raise InvalidInputError(
+                f"nothing was recorded; make the environment with record=True, then {door}() after some steps"
+            )
+        return self._snapshots
 
     def _pictures(self) -> OffscreenViewer:
         if self._offscreen is None:

@@ -54,6 +54,18 @@ def test_flight_is_written(tmp_path: Path) -> None:
     assert "1.500 m" in result.output
 
 
+@pytest.mark.browser
+def test_a_video_is_written(tmp_path: Path) -> None:
+    video = tmp_path / "flight.mp4"
+    result = run(
+        "fly", "--agent", "zero", "--mp4", video, "--fps", "5", "--seconds", "0.4", "--current", "0.2"
+    )
+    assert result.exit_code == 0, result.output
+    assert f"Wrote {video}" in result.output.replace("\n", "")
+    assert video.read_bytes()[4:8] == b"ftyp"  # ISO 14496-12, which MP4 is
+    assert_refused(run("fly", "--fps", "5"), "--mp4")
+
+
 def test_trajectories_are_written(tmp_path: Path) -> None:
     flight = tmp_path / "flight.csv"
     result = run("fly", "--trajectory", flight, "--seconds", "0.5", "--set", "current=[0.2,0,0]")

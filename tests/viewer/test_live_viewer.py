@@ -65,6 +65,39 @@ def test_meshcat_scenery_is_hidden(page: Page) -> None:
         assert page.node(path, "visible") is False
 
 
+def test_what_cannot_be_seen_is_not_drawn(viewer: LiveViewer, page: Page) -> None:
+    """Its node stays visible, which a person may switch off and on."""
+    for time, force in ((1.1, 40.0), (1.2, 0.0), (1.3, 40.0)):
+        draw(viewer, page, time, wrench_body=[force, 0, 0, 0, 0, 0])
+        assert page.node("/world/thrust/net", "children[0].visible") is (force > 0.0)
+        assert page.node("/world/thrust/net", "visible") is True
+        assert page.node("/world/vehicle", "visible") is True
+
+
+def pictures_apart(milliseconds: float, count: int) -> str:
+    """Draw pictures by a clock that is set; return the share of the full resolution that they have at the end."""
+    return (
+        f"(() => {{ for (let i = 0; i < {count}; i++) {{ window.now += {milliseconds}; viewer.render(); }}"
+        "return viewer.renderer.getPixelRatio(); })()"
+    )
+
+
+def test_slow_motion_gives_up_sharpness_until_it_stands_still(viewer: LiveViewer, page: Page) -> None:
+    draw(viewer, page, 1.4)
+    with open_page(viewer.url) as slow:
+        slow.wait_until(f"{CLOCK_TEXT} === '1.4 s' && glide.at_rest()")
+        slow.evaluate("(() => { window.now = 1e6; performance.now = () => window.now; })()")
+        assert slow.evaluate(pictures_apart(20.0, 30)) == 1.0
+        assert slow.evaluate(pictures_apart(100.0, 4)) == pytest.approx(0.7)
+        assert slow.evaluate(pictures_apart(100.0, 30)) == 0.5
+        assert slow.evaluate(pictures_apart(40.0, 30)) == 0.5
+        assert slow.evaluate("(() => { window.now += 1000; })()") is None
+        slow.wait_until("viewer.renderer.getPixelRatio() === 1")
+        assert slow.evaluate(pictures_apart(40.0, 2)) == 0.5
+        assert slow.evaluate(pictures_apart(10.0, 30)) == 1.0
+        assert slow.evaluate(pictures_apart(1000.0, 30)) == 1.0, "pictures one by one are not motion"
+
+
 def test_a_page_opened_late_shows_the_present_pose(viewer: LiveViewer, page: Page) -> None:
     draw(viewer, page, 2.0, position_ned=[1.0, -2.0, 6.0], quaternion_body_to_ned=yawed(0.5))
     with open_page(viewer.url) as late:

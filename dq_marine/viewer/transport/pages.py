@@ -11,7 +11,7 @@ from string import Template
 
 
 def _file(name: str) -> str:
-    """A file of the folder `page`, which the live page consists of."""
+    """A file of the folder `page`, which the pages consist of."""
     return resources.files(__package__).joinpath("page", name).read_text(encoding="utf-8")
 
 
@@ -68,19 +68,6 @@ LIVE_SCRIPT = """
   const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
   viewer.connect(new URL("socket", location.href).href.replace(/^http/, "ws"));
   viewer.connection.addEventListener("close", () => show("notice", "The simulation has ended."));
-"""
-
-CAPTURE_SCRIPT = """
-  // A picture has the size that was asked for, whatever the browser's window looks like, and the
-  // scene is drawn only when a picture is taken: no animation loop.
-  const size = new URLSearchParams(location.search);
-  const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"), false);
-  const set_size = viewer.set_3d_pane_size.bind(viewer);
-  viewer.set_3d_pane_size = () => set_size(Number(size.get("width")), Number(size.get("height")));
-  viewer.set_3d_pane_size();
-  viewer.connect(new URL("socket", location.href).href.replace(/^http/, "ws"));
-  // The last page closes the browser: it ends with the server even if nobody is left to end it.
-  viewer.connection.addEventListener("close", () => window.close());
 """
 
 CONTROLS = """
@@ -169,12 +156,21 @@ LIVE_PAGE = _page(
     SERVED_MESHCAT,
     _inline(LIVE_SCRIPT + CAPTION_SCRIPT),
     SEA,
+    _inline(_file("hidden.js")),
     _inline(_file("legend.js")),
     _inline(_file("glide.js")),
     _inline(_file("panel.js")),
     _inline(_file("view.js")),
+    _inline(_file("pace.js")),
 )
-CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT), SEA)
+CAPTURE_PAGE = _page(
+    "dq-marine",
+    "",
+    SERVED_MESHCAT,
+    _inline(_file("capture.js")),
+    SEA,
+    _inline(_file("hidden.js")),
+)
 
 REPLAY_DATA_SCRIPT = """
   const messages = $messages;
@@ -189,6 +185,7 @@ REPLAY_PAGE = Template(
         _inline(REPLAY_DATA_SCRIPT),
         _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
         SEA,
+        _inline(_file("pace.js")),
         _inline(_file("legend.js").replace("$", "$$")),  # a template's dollars are doubled
     )
 )

@@ -1,8 +1,9 @@
 """The viewer's server: meshcat's bridge from ZeroMQ to web pages, for this computer only.
 
 It runs as a process of its own, `python -m dq_marine.viewer.transport.server`. Its parent writes one line of JSON to
-its standard input, the secrets; it prints one line of JSON with its two addresses, and ends when its standard input
-does, that is, when its parent is gone.
+its standard input, the secrets and the socket for web pages, which the parent has opened, so that a page may ask before
+the server is ready; it prints one line of JSON with the address for ZeroMQ, and ends when its standard input does, that
+is, when its parent is gone.
 
 meshcat's own server listens on every network interface and obeys whoever connects. This one listens on the loopback
 address, on free ports, and two secrets keep out what else can reach those: other users' programs, and pages from
@@ -16,43 +17,44 @@ anywhere in the user's own browser.
 
 from __future__ import annotations
 
-import base64
 import json
 import os
+import socket
 import sys
 from typing import Any
 
 import tornado.httpserver
 import tornado.ioloop
-import tornado.netutil
 import tornado.routing
 import tornado.web
 import umsgpack
 import zmq
-from meshcat.servers.zmqserver import (
+from zmq.eventloop.zmqstream import ZMQStream
+
+from dq_marine.viewer.libraries import meshcat_page_folder
+from dq_marine.viewer.transport.bridge import (
     MESHCAT_COMMANDS,
     StaticFileHandlerNoCache,
     WebSocketHandler,
     ZMQWebSocketBridge,
 )
-from zmq.eventloop.zmqstream import ZMQStream
-
-from dq_marine.viewer.libraries import meshcat_page_folder
 from dq_marine.viewer.transport.pages import CAPTURE_PAGE, LIVE_PAGE
 from dq_marine.viewer.transport.panel_socket import POLICY_VIOLATION, PanelHub, PanelSocket
+from dq_marine.viewer.transport.picture import is_picture
 
 LOOPBACK = "127.0.0.1"
 LOOPBACK_NAMES = r"^(127\.0\.0\.1|localhost)$"
-ANY_FREE_PORT = 0
 SHOW_PANEL, TAKE_WORDS = "show_panel", "take_words"
 """Messages about the panels of pages: what they are to show, and a question for what was said by them."""
 
 KINDS = frozenset(MESHCAT_COMMANDS) | {"capture_image", SHOW_PANEL, TAKE_WORDS}
 """Messages that are carried out."""
 
-PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
-LARGEST_MESSAGE = 256 * 2**20
-"""Bytes in a message from a page; a picture of 8000 x 8000 pixels fits in."""
+UNTIL_A_PAGE_IS_THERE = 0.02
+"""Time between looks whether a page has connected that a picture can be asked of [s]."""
+
+LARGEST_MESSAGE = 257 * 2**20
+"""Bytes in a message from a page; a picture of 8192 x 8192 pixels fits in."""
 
 
 class PageHandler(tornado.web.RequestHandler):
@@ -69,15 +71,15 @@ class PageHandler(tornado.web.RequestHandler):
 
 
 class LoopbackApplication(tornado.web.Application):
-    """An application that listens on the loopback address only, whatever port it is asked for."""
+    """An application that listens at the door it is given, whatever port it is asked for."""
+
+    door: socket.socket
 
     def listen(self, port: int, *_: Any, **__: Any) -> tornado.httpserver.HTTPServer:
-        """Take any free port: meshcat's bridge asks for a fixed one."""
+        """Take the door: meshcat's bridge asks for a fixed port."""
         del port
         server = tornado.httpserver.HTTPServer(self)
-        sockets = tornado.netutil.bind_sockets(ANY_FREE_PORT, LOOPBACK)
-        server.add_sockets(sockets)
-        self.port: int = sockets[0].getsockname()[1]
+        server.add_sockets([self.door])
         return server
 
 
@@ -86,11 +88,10 @@ class PageSocket(WebSocketHandler):  # type: ignore[misc]  # meshcat has no type
 
     def on_message(self, message: str | bytes) -> None:
         """Pass a picture on, if one is still wanted; close on anything else."""
-        picture = picture_in(message)
-        if picture is None:
+        if not is_picture(message):
             self.close(POLICY_VIOLATION, "not a picture")
         elif self.bridge.wants_picture:
-            self.bridge.give_picture(picture)
+            self.bridge.give_picture(message)
 
 
 class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has no type hints
@@ -100,18 +101,20 @@ class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has n
         wants_picture: whether pages were asked for a picture that none of them has sent yet.
     """
 
-    def __init__(self, secret_key: str, path: str) -> None:
+    def __init__(self, secret_key: str, path: str, door: int) -> None:
         """Open the doors.
 
         Args:
             secret_key: the server's, for CURVE.
             path: under which the pages are.
+            door: number of the file that is the listening socket for web pages.
         """
         self._secret_key, self._path = secret_key, path
+        self._door = socket.socket(fileno=door)
+        self._door.setblocking(False)
         self.wants_picture = False
         self._panels = PanelHub()
-        super().__init__(zmq_url=f"tcp://{LOOPBACK}:*", host=LOOPBACK, port=ANY_FREE_PORT)
-        self.web_url = f"http://{LOOPBACK}:{self.app.port}/{path}/"
+        super().__init__(zmq_url=f"tcp://{LOOPBACK}:*", host=LOOPBACK, port=0)
 
     def make_app(self) -> LoopbackApplication:
         """Routes for the loopback host names; every other name gets `404 Not Found`.
@@ -127,7 +130,9 @@ class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has n
             (rf"/{self._path}/(.*)", StaticFileHandlerNoCache, folder),
         ]
         here = tornado.routing.HostMatches(LOOPBACK_NAMES)
-        return LoopbackApplication([(here, routes)], websocket_max_message_size=LARGEST_MESSAGE)
+        application = LoopbackApplication([(here, routes)], websocket_max_message_size=LARGEST_MESSAGE)
+        application.door = self._door
+        return application
 
     def setup_zmq(self, url: str) -> tuple[zmq.Socket[bytes], ZMQStream, str]:
         """As in meshcat, but for those who have the keys, and report the port that the operating system chose."""
@@ -156,22 +161,15 @@ class LoopbackBridge(ZMQWebSocketBridge):  # type: ignore[misc]  # meshcat has n
             self.zmq_socket.send(b"ok")
         else:
             self.wants_picture = kind == b"capture_image"
-            super().handle_zmq(frames)
+            if self.wants_picture and not self.websocket_pool:  # meshcat would look again much later
+                self.ioloop.call_later(UNTIL_A_PAGE_IS_THERE, self.handle_zmq, frames)
+            else:
+                super().handle_zmq(frames)
 
     def give_picture(self, picture: bytes) -> None:
         """Answer the request for a picture."""
         self.wants_picture = False
         self.zmq_stream.send(picture)
-
-
-def picture_in(message: str | bytes) -> bytes | None:
-    """Return the picture that a page has sent, a PNG file; None if it is something else."""
-    try:
-        start, _, code = json.loads(message)["data"].partition(",")
-        picture = base64.b64decode(code, validate=True)
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
-        return None
-    return picture if start == "data:image/png;base64" and picture.startswith(PNG_SIGNATURE) else None
 
 
 def main() -> None:
@@ -184,7 +182,7 @@ def main() -> None:
             loop.stop()
 
     loop.add_handler(sys.stdin, stop_at_end, loop.READ)
-    print(json.dumps({"zmq": bridge.zmq_url, "web": bridge.web_url}), flush=True)  # noqa: T201
+    print(json.dumps({"zmq": bridge.zmq_url}), flush=True)  # noqa: T201
     bridge.run()
 
 

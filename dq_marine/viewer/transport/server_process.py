@@ -6,6 +6,7 @@ import json
 import os
 import secrets
 import selectors
+import socket
 import subprocess
 import sys
 import weakref
@@ -13,9 +14,16 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.libraries import drawing_library, meshcat_page_folder
 from dq_marine.viewer.transport.messages import CAPTURE_IMAGE, TAKE_WORDS, Message
+from dq_marine.viewer.transport.picture import pixels_of
+
+LOOPBACK = "127.0.0.1"
+ANY_FREE_PORT = 0
 
 START_TIMEOUT = 30.0
 REPLY_TIMEOUT = 10.0
@@ -38,8 +46,12 @@ class ServerProcess:
         web_url: address of the live page.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, meanwhile: Callable[[str], None] = lambda web_url: None) -> None:
         """Start the server.
+
+        Args:
+            meanwhile: called with the address of the live page while the server starts; a page that is asked for
+                comes when it has.
 
         Raises:
             MissingDependencyError: meshcat, pyzmq or another library of the viewer is not installed.
@@ -50,16 +62,20 @@ class ServerProcess:
             drawing_library(name)
         self._zmq = drawing_library("zmq")
         public_key, secret_key = self._zmq.curve_keypair()
-        self._process = _start()
-        self._stop = weakref.finalize(self, _stop, self._process, os.getpid())
+        path = secrets.token_urlsafe(16)
+        with socket.create_server((LOOPBACK, ANY_FREE_PORT)) as door:
+            self.web_url = f"http://{LOOPBACK}:{door.getsockname()[1]}/{path}/"
+            self._process = _start(door)
+            self._stop = weakref.finalize(self, _stop, self._process, os.getpid())
+            told = {"secret_key": secret_key.decode(), "path": path, "door": door.fileno()}
         try:
-            _tell(self._process, {"secret_key": secret_key.decode(), "path": secrets.token_urlsafe(16)})
-            addresses = _read_addresses(self._process)
-        except ViewerError:
+            meanwhile(self.web_url)
+            _tell(self._process, told)
+            address = _read_address(self._process)
+        except BaseException:
             self._stop()
             raise
-        self.web_url: str = addresses["web"]
-        self._socket = _connected(self._zmq, addresses["zmq"], public_key)
+        self._socket = _connected(self._zmq, address, public_key)
         # Dropped or forgotten, a viewer still ends its server and its connection.
         weakref.finalize(self, self._socket.close, 0)
 
@@ -87,20 +103,20 @@ class ServerProcess:
         words: list[dict[str, Any]] = json.loads(self._request(TAKE_WORDS, REPLY_TIMEOUT))
         return words
 
-    def capture(self, timeout: float, check: Callable[[], None]) -> bytes:
-        """A picture of what the connected page shows after all messages sent so far.
+    def capture(self, timeout: float, check: Callable[[], None]) -> NDArray[np.uint8]:
+        """A picture of what the connected page, which must be the one for pictures, shows after all messages so far.
 
         Args:
             timeout: longest wait for the page and its picture [s].
             check: called during the wait; raises when there is no hope left.
 
         Returns:
-            A PNG file.
+            Red, green and blue of every pixel, shape (height, width, 3).
 
         Raises:
             ViewerError: no picture came in time.
         """
-        return self._request(CAPTURE_IMAGE, timeout, check)
+        return pixels_of(self._request(CAPTURE_IMAGE, timeout, check))
 
     def close(self) -> None:
         """End the server and wait for its end. May be called again."""
@@ -129,8 +145,8 @@ class ServerProcess:
         return answer
 
 
-def _start() -> subprocess.Popen[bytes]:
-    """Start the server's process with pipes to it, away from the terminal's signals."""
+def _start(door: socket.socket) -> subprocess.Popen[bytes]:
+    """Start the server's process with pipes to it and its door, away from the terminal's signals."""
     # -P keeps the current folder, whatever lies in it, off the server's module path.
     package_root = str(Path(__file__).parents[3])
     search_path = [package_root, *filter(None, [os.environ.get("PYTHONPATH")])]
@@ -141,10 +157,11 @@ def _start() -> subprocess.Popen[bytes]:
         stderr=subprocess.DEVNULL,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(search_path)},
         start_new_session=True,
+        pass_fds=(door.fileno(),),
     )
 
 
-def _tell(process: subprocess.Popen[bytes], told: dict[str, str]) -> None:
+def _tell(process: subprocess.Popen[bytes], told: dict[str, Any]) -> None:
     """Write the server's first line, which nobody else can read."""
     try:
         process.stdin.write(json.dumps(told).encode() + b"\n")  # type: ignore[union-attr]
@@ -153,8 +170,8 @@ def _tell(process: subprocess.Popen[bytes], told: dict[str, str]) -> None:
         raise ViewerError(_NO_START) from error
 
 
-def _read_addresses(process: subprocess.Popen[bytes]) -> dict[str, str]:
-    """The server's first line, which gives its two addresses."""
+def _read_address(process: subprocess.Popen[bytes]) -> str:
+    """The server's first line, which gives its address for messages."""
     line = b""
     with selectors.DefaultSelector() as selector:
         selector.register(process.stdout, selectors.EVENT_READ)  # type: ignore[arg-type]
@@ -162,21 +179,21 @@ def _read_addresses(process: subprocess.Popen[bytes]) -> dict[str, str]:
             line = process.stdout.readline()  # type: ignore[union-attr]
     if not line:
         raise ViewerError(_NO_START)
-    addresses: dict[str, str] = json.loads(line)
-    return addresses
+    address: str = json.loads(line)["zmq"]
+    return address
 
 
 def _connected(zmq: Any, url: str, server_key: bytes) -> Any:
     """A request socket to the server that has the secret half of this key, encrypted by CURVE."""
-    socket = zmq.Context.instance().socket(zmq.REQ)
-    socket.curve_serverkey = server_key
-    socket.curve_publickey, socket.curve_secretkey = zmq.curve_keypair()
-    socket.linger = 0
+    asking = zmq.Context.instance().socket(zmq.REQ)
+    asking.curve_serverkey = server_key
+    asking.curve_publickey, asking.curve_secretkey = zmq.curve_keypair()
+    asking.linger = 0
     # A request whose wait was interrupted, as by Ctrl-C, must not spoil the next one.
-    socket.req_relaxed = True
-    socket.req_correlate = True
-    socket.connect(url)
-    return socket
+    asking.req_relaxed = True
+    asking.req_correlate = True
+    asking.connect(url)
+    return asking
 
 
 def _stop(process: subprocess.Popen[bytes], owner: int) -> None:

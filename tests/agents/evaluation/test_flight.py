@@ -165,6 +165,10 @@ def test_files_that_cannot_be_are_refused(tmp_path: Path) -> None:
         InvalidInputError, match=r"flight\.txt has no ending that trajectories have; give one of \.csv"
     ):
         flown(plan, Outputs(trajectory=tmp_path / "flight.txt"))
+    with pytest.raises(InvalidInputError, match=r"flight\.avi has the ending"):
+        flown(plan, Outputs(mp4=tmp_path / "flight.avi"))
+    with pytest.raises(InvalidInputError, match="fps = 0"):
+        flown(plan, Outputs(mp4=tmp_path / "flight.mp4", fps=0.0))
 
 
 def test_demo_writes_its_files_and_says_where(tmp_path: Path, no_display: None) -> None:
