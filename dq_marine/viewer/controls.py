@@ -176,10 +176,15 @@ Control = Button | Switch | Choice | Slider | Number | Stick
 
 @dataclass(frozen=True)
 class Group:
-    """Controls that stand together under a heading."""
+    """Controls that stand together under a heading.
+
+    Attributes:
+        note: a sentence for the person, between heading and controls; "" for none.
+    """
 
     label: str
     controls: tuple[Control, ...]
+    note: str = ""
 
 
 class Panel:
@@ -205,6 +210,7 @@ class Panel:
         return [
             {
                 "label": group.label,
+                "note": group.note,
                 "controls": [{"kind": control.kind, **asdict(control)} for control in group.controls],
             }
             for group in self.groups

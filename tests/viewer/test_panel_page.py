@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -28,6 +29,7 @@ from dq_marine.viewer.live import Reading
 pytestmark = pytest.mark.browser
 
 PATIENCE = 60.0
+LONGER = replace(ROV, length=3.0 * ROV.length)
 GROUPS = (
     Group(
         "Flight",
@@ -38,6 +40,7 @@ GROUPS = (
             Slider("speed", "speed", 0.1, 20.0, 1.0, 0.1, "x", logarithmic=True),
             Number("seed", "seed", 0, 1000, 3),
         ),
+        note="What this is about.",
     ),
     Group(
         "Helm",
@@ -186,6 +189,16 @@ def test_help_lists_the_keys(page: Page) -> None:
     assert page.evaluate(f"{element('panel-help')}.hidden")
 
 
+def test_a_group_has_a_note_and_stays_folded(viewer: LiveViewer, page: Page) -> None:
+    folded = "document.querySelector('#panel-controls details')"
+    assert page.evaluate(f"{folded}.querySelector('.note').textContent") == "What this is about."
+    page.evaluate(f"window.old = {folded}; {folded}.open = false")
+    viewer.show_controls(GROUPS)
+    page.wait_until(f"{folded} !== window.old")
+    assert page.evaluate(f"{folded}.open") is False
+    page.evaluate(f"{folded}.open = true")
+
+
 def test_readings_and_their_history(viewer: LiveViewer, page: Page) -> None:
     for second in range(5):
         viewer.show_readings(float(second), {"Motion": (Reading("depth", 5.0 + second, "m"),)})
@@ -275,6 +288,48 @@ def test_things_can_be_hidden(name: str, path: str, page: Page) -> None:
     assert page.node(path, "visible") is False
     page.evaluate(f"{element(f'view-{name}')}.click()")
     assert page.node(path, "visible") is True
+
+
+def test_readings_that_are_no_more_are_taken_away(viewer: LiveViewer, page: Page) -> None:
+    labels = (
+        "[...document.querySelectorAll('#panel-readings .row > label')].map((one) => one.textContent).join()"
+    )
+    viewer.show_readings(1.0, {"Motion": (Reading("depth", 5.0, "m"),)})
+    page.wait_until(f"{labels} === 'depth'")
+    viewer.show_readings(1.0, {"Motion": (Reading("height", 0.1, "m"), Reading("north", 0.0, "m"))})
+    page.wait_until(f"{labels} === 'height,north'")
+
+
+def test_another_vehicle_is_drawn_in_place_of_the_first(viewer: LiveViewer, page: Page) -> None:
+    length = """(() => {
+      const box = [Infinity, -Infinity];
+      viewer.scene_tree.find(["world", "vehicle"]).object.traverse((part) => {
+        const places = part.geometry && part.geometry.attributes.position;
+        for (let i = 0; places && i < places.count; i++) {
+          box[0] = Math.min(box[0], places.getX(i));
+          box[1] = Math.max(box[1], places.getX(i));
+        }
+      });
+      return box[1] - box[0];
+    })()"""
+    before = page.evaluate(length)
+    choose_camera(page, "top")
+    _, near, _ = camera_from_vehicle(page)
+    page.evaluate(f"{element('view-trail')}.click()")
+    viewer.show_vehicle(LONGER, "A longer one")
+    viewer.draw(snapshot(time=1.0))
+    page.wait_until(f"{element('title')}.textContent === 'A longer one' && {length} > 2 * {before}")
+    page.evaluate("frames_seen = 0")
+    page.wait_until("frames_seen > 3")
+    _, far, _ = camera_from_vehicle(page)
+    assert far > 2.0 * near  # as many lengths away
+    assert page.node("/world/trail", "visible") is False  # as was asked for before
+    page.evaluate(f"{element('view-trail')}.click()")
+    choose_camera(page, "follow")
+    assert page.evaluate("document.querySelectorAll('#panel-controls details').length") == 2
+    viewer.show_vehicle(ROV, "An ROV")
+    viewer.draw(snapshot(time=1.0))
+    page.wait_until(f"{element('title')}.textContent === 'An ROV' && {length} < 1.1 * {before}")
 
 
 def test_on_a_telephone_the_scene_can_be_seen(viewer: LiveViewer) -> None:

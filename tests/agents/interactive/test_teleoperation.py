@@ -22,6 +22,8 @@ PATIENCE = 180.0
 KEYS = ("KeyW", "KeyS", "KeyE", "KeyQ")
 READY = "document.querySelectorAll('#panel-controls details').length > 1"
 
+LABELS = "[...document.querySelectorAll('#panel-readings .row > label')].map((one) => one.textContent)"
+
 GOAL_FROM_VEHICLE = """(() => {
   const at = (...path) => viewer.scene_tree.find(["world", ...path]).object;
   const vehicle = at("vehicle"), goal = at("goal", "ghost");
@@ -108,3 +110,36 @@ def test_the_current_slider_moves_the_water(tmp_path: Path) -> None:
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=120)
     assert process.returncode == 0, out
+
+
+def choose(page: Page, name: str, value: str) -> None:
+    choice = f"document.getElementById('control-{name}')"
+    page.wait_until(
+        f"{choice}.value === '{value}' || [...{choice}.options].some((one) => one.value === '{value}')"
+    )
+    page.evaluate(f"{choice}.value = '{value}'; {choice}.onchange()")
+
+
+def test_another_vehicle_task_and_weather_are_chosen_in_the_page() -> None:
+    said = "document.getElementById('notice').textContent"
+    title = "document.getElementById('title').textContent"
+    new_episode = "document.getElementById('control-reset').click()"
+    with flight("--panel", "--set", "current=0", "--seed", "3") as (process, page):
+        assert "from the next episode on" in page.evaluate(
+            "document.getElementById('panel-controls').textContent"
+        )
+        slide(page, "wind_speed", 12.0)
+        page.evaluate(new_episode)
+        page.wait_until(f"{said}.includes('is submerged, where there is no wind')")
+        page.wait_until(f"{title} === 'BlueROV2 Heavy' && {reading('position error')} > 0")
+        choose(page, "task", "WaypointTracking")
+        choose(page, "vehicle", "otter")
+        page.wait_until("document.getElementById('control-vehicle').value === 'otter'")
+        slide(page, "wind_speed", 3.0)
+        page.evaluate(new_episode)
+        page.wait_until(f"{title} === 'Otter' && {LABELS}.includes('height')")
+        page.wait_until(f"{said} === '' && {reading('u, surge')} > 0.2")
+        assert "depth" not in page.evaluate(LABELS)
+        page.evaluate("document.getElementById('control-quit').click()")
+        out, _ = process.communicate(timeout=120)
+        assert process.returncode == 0, out

@@ -149,6 +149,8 @@ const panel = (() => {
   const groups = new Map();
 
   function show_readings(content) {
+    const keys = Object.entries(content.groups).flatMap(([group, rows]) => rows.map(([label]) => `${group}/${label}`));
+    if ([...histories.keys()].some((key) => !keys.includes(key))) { remove_readings(); }  // of another vehicle or task
     for (const [group, rows] of Object.entries(content.groups)) {
       for (const [label, value, unit] of rows) {
         const history = history_of(group, label, unit);
@@ -206,6 +208,12 @@ const panel = (() => {
     for (const history of histories.values()) { history.values.length = 0; }
   }
 
+  function remove_readings() {
+    histories.clear();
+    groups.clear();
+    by_id("panel-readings").replaceChildren();
+  }
+
   // The page as a whole
 
   function toggle_help() { by_id("panel-help").hidden = !by_id("panel-help").hidden; }
@@ -221,11 +229,14 @@ const panel = (() => {
   function show_controls(content) {
     sticks.length = 0;
     setters.clear();
+    const folded = [...by_id("panel-controls").children].filter((section) => !section.open);
+    const closed = new Set(folded.map((section) => section.firstChild.textContent));
     const sections = content.groups.map((group) => {
       const buttons = group.controls.filter((control) => control.kind === "button");
       const others = group.controls.filter((control) => control.kind !== "button");
       return make(
-        "details", {open: true}, make("summary", {textContent: group.label}),
+        "details", {open: !closed.has(group.label)}, make("summary", {textContent: group.label}),
+        ...(group.note ? [make("p", {className: "note", textContent: group.note})] : []),
         ...(buttons.length ? [make("div", {className: "buttons"}, ...buttons.map(show_control.button))] : []),
         ...others.map((control) => show_control[control.kind](control)),
       );

@@ -107,7 +107,18 @@
     return measured || 1;
   }
 
+  let world = null;
+  function meet_the_world() {  // with another vehicle, the world is drawn anew
+    const now = viewer.scene_tree.find(["world"]).object;
+    if (now === world) { return; }
+    world = now;
+    measured = 0;
+    first_position = anchored = null;
+    for (const box of boxes) { box.onchange(); }
+  }
+
   function each_frame() {
+    meet_the_world();
     if (!first_position && thing("/world/vehicle").children.length) { first_position = viewer.camera.position.clone(); }
     if (mode === "free") { stay_put(); } else if (mode !== "follow") { place_camera(); }
     requestAnimationFrame(each_frame);
@@ -115,8 +126,10 @@
 
   // Which things are shown
 
+  const boxes = [];
   const switches = Object.entries(SHOWN).map(([label, paths]) => {
     const box = make("input", {type: "checkbox", checked: true, id: `view-${label.replaceAll(" ", "-")}`});
+    boxes.push(box);
     box.onchange = () => {
       for (const path of paths) { thing(path).visible = box.checked; }
       viewer.set_dirty();
