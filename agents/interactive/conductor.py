@@ -38,9 +38,6 @@ from dq_marine.viewer.controls import LEFT, Event
 from dq_marine.viewer.live import LiveViewer
 from dq_marine.viewer.playback import PLAYING, STEP, Playback
 
-HELM = "helm"
-"""What the helm is called among the agents."""
-
 LOOKED_EVERY = 0.2
 """Time on the wall between looks at the page while something else is waited for [s]."""
 
@@ -172,6 +169,11 @@ class Conductor:
             self.quitting = True
         self._playback.take(Event(PLAYING, True))
         return not self.quitting
+
+    @property
+    def flown_by(self) -> str:
+        """Name of the agent that flies now."""
+        return self._chosen
 
     @property
     def _flying(self) -> MarineEnv:

@@ -11,8 +11,8 @@ import dq_marine  # noqa: F401 - registers
 from dq_marine.agents.controllers.baselines import Agent, ZeroAgent
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, with_keywords
 from dq_marine.agents.evaluation.flight import Outputs
-from dq_marine.agents.interactive.conductor import HELM
 from dq_marine.agents.interactive.controls import AGENT, POWER, RESET, STICK
+from dq_marine.agents.interactive.flights import HELM
 from dq_marine.agents.interactive.flying import MAKING
 from dq_marine.agents.interactive.next_episode import LEVEL, TASK, VEHICLE
 from dq_marine.agents.interactive.weather import WIND
@@ -22,7 +22,7 @@ from dq_marine.viewer.controls import Event
 STILL = with_keywords(DEFAULT_ENVIRONMENT, current=0.0)
 
 
-def test_another_vehicle_flies_from_the_next_episode_on(flight) -> None:
+def test_another_vehicle_flies_from_the_next_episode_on(flight, tmp_path) -> None:
     flown: list[Any] = []
 
     def offer(env: gym.Env[Any, Any]) -> dict[str, Agent]:
@@ -30,7 +30,8 @@ def test_another_vehicle_flies_from_the_next_episode_on(flight) -> None:
         return {"zero": ZeroAgent(env.action_space.shape[0])}
 
     script = [[], [Event(VEHICLE, "bluerov2")], [], [], [Event(RESET)], [], []]
-    episode, page = flight(script, offer=offer, environment=STILL)
+    replay = tmp_path / "last.html"
+    episode, page = flight(script, offer=offer, environment=STILL, outputs=Outputs(html=replay))
     assert [env.vehicle.name for env in flown] == ["BlueROV2 Heavy", "BlueROV2"]
     assert flown[0].episode.periods == 4  # it was flown on until the person wanted another
     assert not flown[1].episode.current_ned.any()  # as was asked for at first
@@ -39,6 +40,7 @@ def test_another_vehicle_flies_from_the_next_episode_on(flight) -> None:
     assert "pitch" not in episode.action_names
     assert any(notice.startswith(MAKING) for notice in page.notices)
     assert page.notices[-1] == ""
+    assert "<title>BlueROV2</title>" in replay.read_text(encoding="utf-8")
 
 
 def test_who_flies_and_what_the_helm_was_set_to_stay(flight) -> None:

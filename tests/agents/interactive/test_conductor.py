@@ -11,9 +11,9 @@ from support.scripted_page import ScriptedPage
 import dq_marine  # noqa: F401 - registers
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, with_keywords
 from dq_marine.agents.evaluation.flight import Outputs
-from dq_marine.agents.interactive import flying
-from dq_marine.agents.interactive.conductor import HELM, Conductor
+from dq_marine.agents.interactive.conductor import Conductor
 from dq_marine.agents.interactive.controls import AGENT, CURRENT, HOLD, POWER, RESET, SEED, STICK
+from dq_marine.agents.interactive.flights import HELM, offered_agents
 from dq_marine.agents.interactive.helm import Helm
 from dq_marine.agents.interactive.next_episode import NextEpisode
 from dq_marine.viewer.controls import LEFT, Event
@@ -99,7 +99,7 @@ def test_everything_can_be_read(flight) -> None:
 
 def test_other_baselines_are_offered_where_they_can_fly() -> None:
     env = gym.make("dq_marine/StationKeeping-v0", disable_env_checker=True)
-    offered = flying.offered_agents(env, baselines=["zero"], runs=[], seed=0)
+    offered = offered_agents(env, baselines=["zero"], runs=[], seed=0)
     assert list(offered) == ["zero", "controller", "random"]
 
 
