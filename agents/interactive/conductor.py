@@ -18,6 +18,7 @@ from dq_marine.agents.evaluation.episodes import FlightEndedError
 from dq_marine.agents.interactive.controls import (
     AGENT,
     CURRENT,
+    GOAL,
     HOLD,
     POWER,
     QUIT,
@@ -31,6 +32,7 @@ from dq_marine.agents.interactive.helm import Helm
 from dq_marine.agents.interactive.next_episode import NextEpisode
 from dq_marine.agents.interactive.readings import readings
 from dq_marine.envs.core.marine_env import Action, MarineEnv
+from dq_marine.envs.core.moved_goal import move_goal
 from dq_marine.envs.core.observation import Observation
 from dq_marine.envs.core.view import shape_of
 from dq_marine.errors import InvalidInputError
@@ -89,9 +91,10 @@ class Conductor:
             SEED: self._take_seed,
             AGENT: self._choose,
             STICK: self._move_stick,
-            LEFT: lambda _: self._move_stick(None),
+            LEFT: lambda _: setattr(self._helm, "stick", np.zeros(6)),
             POWER: lambda power: setattr(self._helm, "power", power),
             HOLD: lambda hold: setattr(self._helm, "hold", hold and self._helm.can_hold),
+            GOAL: self._move_goal,
             CURRENT[0]: lambda speed: self._turn_current(speed, None),
             CURRENT[1]: lambda bearing: self._turn_current(None, bearing),
         }
@@ -215,8 +218,15 @@ class Conductor:
         self._chosen = name
         self._agents[name].reset(self._flying)
 
-    def _move_stick(self, positions: tuple[float, ...] | None) -> None:
+    def _move_stick(self, positions: tuple[float, ...]) -> None:
         self._helm.stick = stick_positions(self._flying, positions)
+
+    def _move_goal(self, position_ned: tuple[float, float, float]) -> None:
+        try:
+            move_goal(self._flying, position_ned)
+        except InvalidInputError as error:
+            self._viewer.show_notice(str(error))
+        self._show(at_once=not self._playback.playing)
 
     def _turn_current(self, speed: float | None, bearing: float | None) -> None:
         env = self._flying

@@ -9,9 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
+import numpy as np
 
 from dq_marine.agents.choice import make_agents
 from dq_marine.agents.controllers.baselines import BASELINES, Agent, make_baseline
+from dq_marine.agents.environments import marine
 from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, open_flight, options_of
 from dq_marine.agents.interactive.helm import Helm
 from dq_marine.agents.settings import EnvironmentSettings
@@ -78,7 +80,7 @@ def opened_flight(
 
 
 def begun_flight(plan: FlightPlan, make_agents: MakeAgents, outputs: Outputs) -> Flight:
-    """Return a flight whose first episode can begin, with those who can fly it.
+    """Return a flight whose first episode can begin, compiled, with those who can fly it.
 
     Raises:
         InvalidInputError: the plan is wrong.
@@ -90,6 +92,7 @@ def begun_flight(plan: FlightPlan, make_agents: MakeAgents, outputs: Outputs) ->
             offered = make_agents(env)
         except InvalidInputError:  # one that was asked for flies the first environment, but not this one
             offered = offered_agents(env, baselines=(), runs=(), seed=plan.seed or 0)
+        compile_step(env)
         return {name: agent for name, agent in offered.items() if _can_fly(agent, env)}
 
     flight, _ = opened_flight(plan, those_who_can, outputs, teleoperated=False)
@@ -102,6 +105,15 @@ def replanned(plan: FlightPlan, environment: EnvironmentSettings, seed: int) -> 
     if environment.id == plan.environment.id:
         return changed
     return replace(changed, start={}, start_distance=None)
+
+
+def compile_step(env: gym.Env[Any, Any]) -> None:
+    """Have what the steps of an environment need compiled, or loaded; its episode stays as it is.
+
+    Args:
+        env: in an episode.
+    """
+    marine(env).foreseen(np.zeros(env.action_space.shape or (), np.float32))
 
 
 def _can_fly(agent: Agent, env: gym.Env[Any, Any]) -> bool:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import Any, TypeVar
 
 import gymnasium as gym
 
@@ -16,6 +17,7 @@ from dq_marine.agents.interactive.flights import (
     Flight,
     MakeAgents,
     begun_flight,
+    compile_step,
     opened_flight,
     replanned,
 )
@@ -23,8 +25,11 @@ from dq_marine.agents.interactive.next_episode import NextEpisode
 from dq_marine.agents.interactive.recording import Recorder
 from dq_marine.envs.core.view import open_page, shape_of
 from dq_marine.errors import DQMarineError
+from dq_marine.viewer.live import LiveViewer
 
-MAKING = "Making the next environment; the first time, compiling it takes 10 to 20 s."
+T = TypeVar("T")
+
+MAKING = "Making the environment; the first time, compiling it takes 10 to 20 s."
 
 
 def fly_interactively(
@@ -86,6 +91,7 @@ class _Session:
             self._conductor = Conductor(
                 page, flight.agents, flight.helm, seed=seed, next_episode=self._next_episode
             )
+            self._show_start(page, seed)
             while True:
                 episode = self._fly_one()
                 if not self._goes_on_after(episode):
@@ -112,6 +118,20 @@ class _Session:
         if self._recorder is not None:
             self.env = self._recorder.recording(flight.env, lambda: self._conductor.flown_by == HELM)
 
+    def _show_start(self, page: LiveViewer, seed: int) -> None:
+        """Show where the first episode begins, while its steps are compiled; what can be done comes thereafter."""
+        env = self._flight.env
+        env.reset(seed=seed, options=options_of(env, self._flight.plan, seed))
+        page.draw(marine(env).snapshot())
+        self._aside(compile_step, env)
+
+    def _aside(self, make: Callable[..., T], *arguments: Any) -> T:
+        """Return what a function makes in another thread, while the page says that it does."""
+        with ThreadPoolExecutor(1) as aside:
+            work = aside.submit(make, *arguments)
+            self._conductor.wait_for(work, MAKING)
+        return work.result()
+
     def _fly_one(self) -> Episode:
         seed, track = self._conductor.seed, self._outputs.trajectory is not None
         options = options_of(self._flight.env, self._flight.plan, seed)
@@ -133,10 +153,7 @@ class _Session:
         conductor = self._conductor
         try:
             plan = replanned(self._flight.plan, self._next_episode.settings, conductor.seed)
-            with ThreadPoolExecutor(1) as aside:
-                work = aside.submit(begun_flight, plan, self._make_agents, self._outputs)
-                conductor.wait_for(work, MAKING)
-            flight = work.result()
+            flight = self._aside(begun_flight, plan, self._make_agents, self._outputs)
         except DQMarineError as error:
             conductor.say_next(str(error))
             return

@@ -13,15 +13,17 @@ class ScriptedPage:
     """At each look it hands over the next events of a script, and Quit at its end.
 
     Attributes:
-        impatient: whether the person quits while the next environment is made.
+        impatient: whether the person quits while another environment is made than the first.
     """
 
     url = "http://127.0.0.1:7000"
 
     def __init__(self, script: list[list[Event]], *, impatient: bool = False) -> None:
-        self.impatient = impatient
+        self.impatient, self._length = impatient, len(script)
         self.script, self.panel = script, Panel(())
         self.times: list[float] = []
+        self.places: list[tuple[float, ...]] = []
+        self.goals: list[tuple[float, ...] | None] = []
         self.notices: list[str] = []
         self.values: list[dict[str, Any]] = []
         self.readings: dict[str, Any] = {}
@@ -35,6 +37,9 @@ class ScriptedPage:
 
     def draw(self, snapshot: Any) -> None:
         self.times.append(snapshot.time)
+        self.places.append(tuple(snapshot.position_ned.tolist()))
+        goal = snapshot.goal_position_ned
+        self.goals.append(None if goal is None else tuple(goal.tolist()))
 
     def clear_trail(self) -> None:
         pass
@@ -56,5 +61,5 @@ class ScriptedPage:
 
     def events(self) -> list[Event]:
         if self.notices and self.notices[-1].startswith(MAKING):
-            return [Event(QUIT)] if self.impatient else []
+            return [Event(QUIT)] if self.impatient and len(self.script) < self._length else []
         return self.script.pop(0) if self.script else [Event(QUIT)]

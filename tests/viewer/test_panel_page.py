@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
 import time
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from viewer.devtools import Page, open_page
@@ -20,6 +22,7 @@ from dq_marine.viewer.controls import (
     Choice,
     Group,
     Number,
+    Place,
     Slider,
     Stick,
     Switch,
@@ -47,6 +50,16 @@ GROUPS = (
         (
             Stick(
                 "stick", "helm", (Axis("astern, ahead", "KeyS", "KeyW", (3, -1)), Axis("b", "KeyA", "KeyD"))
+            ),
+            Place(
+                "place",
+                "goal",
+                ("north", "east", "depth"),
+                (-3.0, -3.0, 2.0),
+                (3.0, 3.0, 8.0),
+                (0.0, 0.0, 5.0),
+                0.01,
+                thing="/world/goal/ghost",
             ),
         ),
     ),
@@ -168,6 +181,74 @@ def test_a_stick_by_gamepad(viewer: LiveViewer, page: Page) -> None:
     page.evaluate("window.pad.axes = [0, 0, 0, 0.05]")  # within the dead zone
     assert next_event(viewer, "stick") == (0.0, 0.0)
     page.evaluate("navigator.getGamepads = () => []")
+
+
+def test_a_place_by_its_sliders(viewer: LiveViewer, page: Page) -> None:
+    slider = element("control-place-1")
+    page.evaluate(f"{slider}.value = 1.234; {slider}.oninput()")
+    assert next_event(viewer, "place") == pytest.approx((0.0, 1.23, 5.0))
+    assert page.evaluate(f"{slider}.nextSibling.textContent") == "1.23 m"
+    viewer.show_values({"place": [0.0, 0.5, 5.0]})
+    page.wait_until(f"Math.abs(Number({slider}.value) - 0.5) < 1e-9")
+
+
+GOAL_ON_SCREEN = """(() => {
+  const goal = viewer.scene_tree.find(["world", "goal", "ghost"]).object;
+  const at = goal.getWorldPosition(viewer.camera.position.clone()).project(viewer.camera);
+  const {left, top, width, height} = document.getElementById("meshcat-pane").getBoundingClientRect();
+  return [left + width * (1 + at.x) / 2, top + height * (1 - at.y) / 2];
+})()"""
+
+
+def pointer(page: Page, kind: str, x: float, y: float, *, shift: bool = False) -> None:
+    options = f"{{clientX: {x}, clientY: {y}, shiftKey: {str(shift).lower()}, pointerId: 1, bubbles: true}}"
+    page.evaluate(
+        f"document.querySelector('#meshcat-pane canvas').dispatchEvent(new PointerEvent('{kind}', {options}))"
+    )
+
+
+def show_goal(viewer: LiveViewer, page: Page, time: float, place: tuple[float, float, float]) -> None:
+    upright = {"goal_quaternion_body_to_ned": np.array([1.0, 0.0, 0.0, 0.0])}
+    viewer.draw(snapshot(time=time, goal_position_ned=np.array(place), **upright))
+    viewer.show_values({"place": list(place)})
+    page.wait_until(f"{element('clock')}.textContent === '{time:.1f} s' && glide.at_rest()")
+
+
+def test_a_goal_is_dragged_along_the_level_and_with_shift_up_and_down(viewer: LiveViewer, page: Page) -> None:
+    """Where the pointer lets go is where the goal then is on the screen."""
+    show_goal(viewer, page, 5.0, (0.5, 0.5, 5.0))
+    x, y = page.evaluate(GOAL_ON_SCREEN)
+    camera = page.evaluate("viewer.camera.position.toArray()")
+    pointer(page, "pointerdown", x, y)
+    pointer(page, "pointermove", x + 40, y + 15)
+    pointer(page, "pointerup", x + 40, y + 15)
+    north, east, down = next_event(viewer, "place")
+    assert down == 5.0
+    assert math.hypot(north - 0.5, east - 0.5) > 0.05
+    show_goal(viewer, page, 6.0, (north, east, down))
+    assert_allclose(page.evaluate(GOAL_ON_SCREEN), [x + 40, y + 15], atol=3.0)
+    pointer(page, "pointerdown", x + 40, y + 15)
+    pointer(page, "pointermove", x + 40, y - 30, shift=True)
+    pointer(page, "pointerup", x + 40, y - 30)
+    lifted = next_event(viewer, "place")
+    assert lifted[:2] == pytest.approx((north, east))
+    assert lifted[2] < down - 0.05
+    show_goal(viewer, page, 7.0, lifted)
+    assert page.evaluate(GOAL_ON_SCREEN)[1] == pytest.approx(y - 30, abs=3.0)
+    assert page.evaluate("viewer.camera.position.toArray()") == pytest.approx(camera)
+    pointer(page, "pointermove", x, y)  # let go, it stays
+    time.sleep(0.3)
+    assert not [event for event in viewer.events() if event.name == "place"]
+
+
+def test_who_does_not_take_the_goal_turns_the_camera(viewer: LiveViewer, page: Page) -> None:
+    show_goal(viewer, page, 8.0, (0.5, 0.5, 5.0))
+    x, y = page.evaluate(GOAL_ON_SCREEN)
+    pointer(page, "pointerdown", x + 100, y + 100)
+    pointer(page, "pointermove", x + 150, y + 100)
+    pointer(page, "pointerup", x + 150, y + 100)
+    time.sleep(0.3)
+    assert not [event for event in viewer.events() if event.name == "place"]
 
 
 def test_keys_while_a_number_is_typed_are_only_typed(viewer: LiveViewer, page: Page) -> None:

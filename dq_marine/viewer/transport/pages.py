@@ -169,6 +169,7 @@ LIVE_PAGE = _page(
     _inline(_file("glide.js")),
     _inline(_file("panel.js")),
     _inline(_file("view.js")),
+    _inline(_file("drag.js")),
 )
 CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT), _inline(_file("sea.js")))
 

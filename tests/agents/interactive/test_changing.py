@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
+import pytest
 
 import dq_marine  # noqa: F401 - registers
 from dq_marine.agents.controllers.baselines import Agent, ZeroAgent
@@ -16,6 +19,7 @@ from dq_marine.agents.interactive.flights import HELM
 from dq_marine.agents.interactive.flying import MAKING
 from dq_marine.agents.interactive.next_episode import LEVEL, TASK, VEHICLE
 from dq_marine.agents.interactive.weather import WIND
+from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
 from dq_marine.viewer.controls import Event
 
@@ -41,6 +45,31 @@ def test_another_vehicle_flies_from_the_next_episode_on(flight, tmp_path) -> Non
     assert any(notice.startswith(MAKING) for notice in page.notices)
     assert page.notices[-1] == ""
     assert "<title>BlueROV2</title>" in replay.read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def slow_making(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, bool]]:
+    """Making an environment takes a while; the vehicles of those that are made, and whether in the main thread."""
+    made: list[tuple[str, bool]] = []
+    foreseen = MarineEnv.foreseen
+
+    def slowly(env: MarineEnv, action: Any) -> Any:
+        made.append((env.vehicle.name, threading.current_thread() is threading.main_thread()))
+        time.sleep(0.5)
+        return foreseen(env, action)
+
+    monkeypatch.setattr(MarineEnv, "foreseen", slowly)
+    return made
+
+
+def test_what_is_compiled_is_so_aside_and_the_page_says_so(flight, slow_making) -> None:
+    """Of the first environment, too, whose start is shown meanwhile."""
+    _, page = flight([[], [Event(VEHICLE, "bluerov2"), Event(RESET)], []], environment=STILL)
+    assert slow_making == [("BlueROV2 Heavy", False), ("BlueROV2", False)]
+    said = [notice.startswith(MAKING) for notice in page.notices]
+    assert sum(said) >= 4  # looked at again and again
+    assert said[0]
+    assert not said[-1]
 
 
 def test_who_flies_and_what_the_helm_was_set_to_stay(flight) -> None:
@@ -95,7 +124,7 @@ def test_one_that_needs_another_to_be_made_gives_way_to_the_baselines(flight) ->
     assert page.panel._controls[AGENT].options == ("controller", "zero", "random", HELM)
 
 
-def test_who_quits_while_it_is_made_keeps_the_episode_before(flight) -> None:
+def test_who_quits_while_it_is_made_keeps_the_episode_before(flight, slow_making) -> None:
     script = [[], [], [Event(VEHICLE, "bluerov2"), Event(RESET)], []]
     episode, page = flight(script, environment=STILL, impatient=True)
     assert episode.action_names[4] == "pitch"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import gymnasium as gym
 import numpy as np
 import pytest
@@ -12,7 +14,7 @@ import dq_marine  # noqa: F401 - registers
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, with_keywords
 from dq_marine.agents.evaluation.flight import Outputs
 from dq_marine.agents.interactive.conductor import Conductor
-from dq_marine.agents.interactive.controls import AGENT, CURRENT, HOLD, POWER, RESET, SEED, STICK
+from dq_marine.agents.interactive.controls import AGENT, CURRENT, GOAL, HOLD, POWER, RESET, SEED, STICK
 from dq_marine.agents.interactive.flights import HELM, offered_agents
 from dq_marine.agents.interactive.helm import Helm
 from dq_marine.agents.interactive.next_episode import NextEpisode
@@ -84,6 +86,27 @@ def test_the_current_that_is_chosen_is_felt(flight, tmp_path) -> None:
 def test_without_a_current_there_is_no_slider_for_it(flight) -> None:
     _, page = flight([[]], environment=STILL)
     assert CURRENT[0] not in page.panel._controls
+
+
+def test_the_goal_is_put_elsewhere_at_once_also_while_it_is_paused(flight) -> None:
+    there = (1.0, -0.5, 6.0)
+    script = [[Event(PLAYING, False)], [Event(GOAL, there)], [Event(STEP)], []]
+    episode, page = flight(script, environment=STILL)
+    assert page.goals[-1] == there
+    assert page.goals[0] == (0.0, 0.0, 5.0)
+    assert page.times[page.goals.index(there)] == 0.0
+    before, after = episode.measured["position_error"]
+    assert before == pytest.approx(math.dist(page.places[0], page.goals[0]))
+    assert after == pytest.approx(math.dist(page.places[-1], there))
+    goal = page.panel._controls[GOAL]
+    assert (goal.least, goal.most) == ((-3.0, -3.0, 2.0), (3.0, 3.0, 8.0))  # half of the workspace around it
+
+
+def test_a_goal_that_is_refused_is_said(flight) -> None:
+    script = [[Event(GOAL, (0.0, 0.0, -5.0))], []]
+    _, page = flight(script, environment=STILL)
+    assert any("up in the air" in notice for notice in page.notices)
+    assert page.goals[-1] == (0.0, 0.0, 5.0)
 
 
 def test_everything_can_be_read(flight) -> None:

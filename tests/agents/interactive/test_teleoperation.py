@@ -105,6 +105,10 @@ def test_the_current_slider_moves_the_water(tmp_path: Path) -> None:
         page.wait_until(f"{reading('north')} > 5.0")
         arrow = "viewer.scene_tree.find(['world', 'current', '0']).object"
         assert page.evaluate(f"{arrow}.matrixWorld.elements.slice(0, 3).some((one) => Math.abs(one) > 0)")
+        ghost = "viewer.scene_tree.find(['world', 'goal', 'ghost']).object"
+        before = page.evaluate(f"{ghost}.position.x")
+        slide(page, "goal-0", before + 2.0)
+        page.wait_until(f"Math.abs({ghost}.position.x - {before + 2.0}) < 0.02")
         page.evaluate("document.getElementById('control-playing').click()")
         page.wait_until("!document.getElementById('control-playing').checked")
         process.send_signal(signal.SIGINT)

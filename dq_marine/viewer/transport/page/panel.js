@@ -45,6 +45,7 @@ const panel = (() => {
   // Controls, by kind: each returns what is shown, and in `setters` how its value is shown
 
   const setters = new Map();
+  const places = [];  // {name, thing, values, move}: positions, of which some can be dragged in the scene
   const row = (label, ...parts) => make("div", {className: "row"}, make("label", {textContent: label}), ...parts);
   const bind = (key, meaning, act) => {
     if (key) { actions.set(key, act); explain([key], meaning); }
@@ -98,6 +99,38 @@ const panel = (() => {
       field.onchange = () => { say(control.name, Number(field.value)); field.blur(); };
       setters.set(control.name, (value) => { field.value = value; });
       return row(control.label, field);
+    },
+    place(control) {
+      const values = [...control.value];
+      const rows = control.axes.map((axis, i) => {
+        const slider = make("input", {
+          type: "range", id: `control-${control.name}-${i}`, min: control.least[i], max: control.most[i], step: "any",
+        });
+        const shown = make("output");
+        slider.oninput = () => { place.move({[i]: Number(slider.value)}); };
+        return {slider, shown, row: row(axis, slider, shown)};
+      });
+      const place = {
+        name: control.name, thing: control.thing, values,
+        show() {
+          rows.forEach(({slider, shown}, i) => {
+            slider.value = values[i];
+            shown.textContent = `${values[i].toFixed(2)} m`;
+          });
+        },
+        move(wanted) {  // to a coordinate for each axis, where it is told
+          for (const [axis, value] of Object.entries(wanted)) {
+            const rounded = Math.round(value / control.step) * control.step;
+            values[axis] = Math.min(Math.max(rounded, control.least[axis]), control.most[axis]);
+          }
+          place.show();
+          say(control.name, values);
+        },
+      };
+      setters.set(control.name, (told) => { values.splice(0, 3, ...told); place.show(); });
+      places.push(place);
+      place.show();
+      return make("div", {id: `control-${control.name}`}, ...rows.map((one) => one.row));
     },
     stick(control) {
       const pulls = control.axes.map(() => 0);
@@ -227,7 +260,7 @@ const panel = (() => {
   }
 
   function show_controls(content) {
-    sticks.length = 0;
+    sticks.length = places.length = 0;
     setters.clear();
     const folded = [...by_id("panel-controls").children].filter((section) => !section.open);
     const closed = new Set(folded.map((section) => section.firstChild.textContent));
@@ -281,5 +314,5 @@ const panel = (() => {
   (function each_frame() { say_sticks(); requestAnimationFrame(each_frame); })();
   connect();
   const connected = () => socket.readyState === WebSocket.OPEN;
-  return {bind, connected, make, row, fill_help};
+  return {bind, connected, fill_help, make, places, row};
 })();
