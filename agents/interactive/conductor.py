@@ -28,6 +28,7 @@ from dq_marine.agents.interactive.controls import (
     flight_controls,
     stick_positions,
 )
+from dq_marine.agents.interactive.gains import Gains
 from dq_marine.agents.interactive.helm import Helm
 from dq_marine.agents.interactive.next_episode import NextEpisode
 from dq_marine.agents.interactive.readings import readings
@@ -80,6 +81,7 @@ class Conductor:
         self._viewer, self._agents, self._helm = viewer, dict(agents), helm
         self._next_episode = next_episode
         self._playback, self._sleep = Playback(sleep=sleep), sleep
+        self._gains = Gains(self._agents)
         self._chosen = next(iter(self._agents))
         self._notice = ""
         self._current: tuple[float, float] | None = None
@@ -124,6 +126,7 @@ class Conductor:
         helm.power = self._helm.power
         helm.hold = helm.can_hold and (self._helm.hold or not self._helm.can_hold)
         self._agents, self._helm = dict(agents), helm
+        self._gains = Gains(self._agents)
         self._chosen = self._chosen if self._chosen in self._agents else next(iter(self._agents))
         self._viewer.show_vehicle(shape_of(inner.vehicle), inner.vehicle.name)
 
@@ -200,6 +203,8 @@ class Conductor:
                 self._does[event.name](event.value)
             elif self._next_episode.take(event):
                 self._show_controls()
+            else:
+                self._tune(event)
         if any(event.name == STEP for event in events):
             self._viewer.show_values({PLAYING: False})
         if self.restarting or self.quitting:
@@ -220,6 +225,13 @@ class Conductor:
 
     def _move_stick(self, positions: tuple[float, ...]) -> None:
         self._helm.stick = stick_positions(self._flying, positions)
+
+    def _tune(self, event: Event) -> None:
+        try:
+            self._gains.take(event, self._flying)
+        except InvalidInputError as error:
+            self._viewer.show_notice(str(error))
+            self._viewer.show_values({event.name: self._gains.value(event.name)})
 
     def _move_goal(self, position_ned: tuple[float, float, float]) -> None:
         try:
@@ -256,7 +268,7 @@ class Conductor:
             playback=self._playback,
             helm=self._helm,
         )
-        self._viewer.show_controls((*groups, *self._next_episode.groups()))
+        self._viewer.show_controls((*groups, *self._gains.groups(), *self._next_episode.groups()))
 
     def _show(self, *, at_once: bool) -> None:
         env, now = self._flying, time.monotonic()

@@ -61,10 +61,10 @@ def press(page: Page, kind: str, code: str) -> None:
 
 
 def reading(label: str) -> str:
-    """A JavaScript expression for the number that stands beside a label."""
+    """A JavaScript expression for the number that stands beside a label; NaN where there is none yet."""
     rows = "[...document.querySelectorAll('#panel-readings .row')]"
     row = f"{rows}.find((one) => one.firstChild.textContent === '{label}')"
-    return f"parseFloat({row}.querySelector('output').textContent)"
+    return f"parseFloat({row}?.querySelector('output').textContent)"
 
 
 def slide(page: Page, name: str, value: float) -> None:
@@ -97,7 +97,7 @@ def test_a_person_reaches_a_goal_by_the_keys(tmp_path: Path) -> None:
     assert trajectory.stat().st_size > 1000
 
 
-def test_the_current_slider_moves_the_water(tmp_path: Path) -> None:
+def test_sliders_move_the_water_and_the_goal_and_tune_the_controller(tmp_path: Path) -> None:
     with flight("--panel", "--agent", "zero", "--current", "0.1", "--seed", "3") as (process, page):
         slide(page, "speed", np.log(20.0))
         slide(page, "current_bearing", 0.0)
@@ -109,6 +109,12 @@ def test_the_current_slider_moves_the_water(tmp_path: Path) -> None:
         before = page.evaluate(f"{ghost}.position.x")
         slide(page, "goal-0", before + 2.0)
         page.wait_until(f"Math.abs({ghost}.position.x - {before + 2.0}) < 0.02")
+        slide(page, "gain_position_bandwidth", np.log(10.0))
+        page.wait_until(
+            "document.getElementById('notice').textContent.includes('too long for the controller')"
+        )
+        gain = "Math.exp(Number(document.getElementById('control-gain_position_bandwidth').value))"
+        page.wait_until(f"Math.abs({gain} - 2.0) < 0.01")  # as it was
         page.evaluate("document.getElementById('control-playing').click()")
         page.wait_until("!document.getElementById('control-playing').checked")
         process.send_signal(signal.SIGINT)
