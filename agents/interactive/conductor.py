@@ -268,7 +268,7 @@ class Conductor:
             playback=self._playback,
             helm=self._helm,
         )
-        self._viewer.show_controls((*groups, *self._gains.groups(), *self._next_episode.groups()))
+        self._viewer.show_controls((*groups, *self._next_episode.groups(), *self._gains.groups()))
 
     def _show(self, *, at_once: bool) -> None:
         env, now = self._flying, time.monotonic()

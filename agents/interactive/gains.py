@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 from dq_marine.agents.controllers.baselines import Agent
@@ -38,7 +39,7 @@ class Gains:
         """Return the sliders, as they stand; none where no agent has such numbers."""
         if not self._sliders:
             return ()
-        return (Group(f"Gains of {self._name}", tuple(self._sliders.values()), note=NOTE),)
+        return (Group(f"Gains of {self._name}", tuple(self._sliders.values()), note=NOTE, opened=False),)
 
     def value(self, name: str) -> float:
         """Return where a slider stands."""
@@ -63,8 +64,7 @@ class Gains:
         tuned = type(agent).for_env(env, validate_settings(content, type(settings), source=event.name))
         tuned.reset(env)
         self._agents[self._name] = tuned
-        slider = self._sliders[event.name]
-        self._sliders[event.name] = Slider(**{**vars(slider), "value": event.value})
+        self._sliders[event.name] = replace(self._sliders[event.name], value=event.value)
         return True
 
 

@@ -211,11 +211,13 @@ class Group:
 
     Attributes:
         note: a sentence for the person, between heading and controls; "" for none.
+        opened: whether the controls are shown at first, and not the heading alone.
     """
 
     label: str
     controls: tuple[Control, ...]
     note: str = ""
+    opened: bool = True
 
 
 class Panel:
@@ -242,6 +244,7 @@ class Panel:
             {
                 "label": group.label,
                 "note": group.note,
+                "opened": group.opened,
                 "controls": [{"kind": control.kind, **asdict(control)} for control in group.controls],
             }
             for group in self.groups

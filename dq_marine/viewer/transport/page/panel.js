@@ -262,13 +262,12 @@ const panel = (() => {
   function show_controls(content) {
     sticks.length = places.length = 0;
     setters.clear();
-    const folded = [...by_id("panel-controls").children].filter((section) => !section.open);
-    const closed = new Set(folded.map((section) => section.firstChild.textContent));
+    const before = new Map([...by_id("panel-controls").children].map((section) => [section.firstChild.textContent, section.open]));
     const sections = content.groups.map((group) => {
       const buttons = group.controls.filter((control) => control.kind === "button");
       const others = group.controls.filter((control) => control.kind !== "button");
       return make(
-        "details", {open: !closed.has(group.label)}, make("summary", {textContent: group.label}),
+        "details", {open: before.get(group.label) ?? group.opened}, make("summary", {textContent: group.label}),
         ...(group.note ? [make("p", {className: "note", textContent: group.note})] : []),
         ...(buttons.length ? [make("div", {className: "buttons"}, ...buttons.map(show_control.button))] : []),
         ...others.map((control) => show_control[control.kind](control)),

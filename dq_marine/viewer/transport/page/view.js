@@ -91,20 +91,22 @@
     anchored = origin;
   }
 
-  let measured = 0;
+  let measured = {parts: 0, length: 0};  // anew when parts come, which they do one by one
   function vehicle_length() {
-    if (!measured) {
-      let least = Infinity, most = -Infinity;
-      thing("/world/vehicle").traverse((part) => {
+    const vehicle = thing("/world/vehicle");
+    let parts = 0, least = Infinity, most = -Infinity;
+    vehicle.traverse(() => { parts++; });
+    if (parts !== measured.parts) {
+      vehicle.traverse((part) => {
         const places = part.geometry && part.geometry.attributes.position;
         for (let i = 0; places && i < places.count; i++) {
           least = Math.min(least, places.getX(i));
           most = Math.max(most, places.getX(i));
         }
       });
-      measured = most > least ? most - least : 0;
+      measured = {parts, length: most > least ? most - least : 0};
     }
-    return measured || 1;
+    return measured.length || 1;
   }
 
   let world = null;
@@ -112,7 +114,7 @@
     const now = viewer.scene_tree.find(["world"]).object;
     if (now === world) { return; }
     world = now;
-    measured = 0;
+    measured = {parts: 0, length: 0};
     first_position = anchored = null;
     for (const box of boxes) { box.onchange(); }
   }
