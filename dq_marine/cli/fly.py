@@ -187,4 +187,4 @@ def fly(
     for path in files.files:
         console.print(f"Wrote {path}", soft_wrap=True)
     for identifier, episodes in recorded.items():
-        console.print(f"Wrote {record}: dataset {identifier}, {episodes} episodes", soft_wrap=True)
+        console.print(f"Wrote {record}: dataset {identifier}, episodes: {episodes}", soft_wrap=True)
