@@ -6,6 +6,10 @@ BIN := $(VENV)/bin
 # Without --no-compile pip would compile every module of torch and its like, of which most are never imported: half a minute.
 INSTALL := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-version-check --constraint constraints.txt
 
+# Tests start hundreds of processes. What Python compiles for them is kept, beside the libraries and not in the tree, even
+# where a shell asks for none to be kept.
+KEEP_BYTECODE := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode
+
 .PHONY: demo test lint interop clean help
 
 help:  ## list the commands
@@ -16,7 +20,7 @@ demo: $(VENV)/.demo  ## fly three tasks by their controllers; write their replay
 
 test: $(VENV)/.test  ## run every test; installs Chromium where it may, else skips what needs it
 	@.ci/browser.sh $(BIN)/python
-	@$(BIN)/python -m pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder
+	@$(KEEP_BYTECODE) $(BIN)/python -m pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder
 
 lint: $(VENV)/.test  ## check style, types and the direction of imports
 	@$(BIN)/ruff check .

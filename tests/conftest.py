@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 
-from hypothesis import settings
 from support.child_compilation import compile_in_children
 
 pytest_plugins = ("support.browser", "support.sweeps", "support.compilations")
 
 
 def pytest_configure() -> None:
-    """Bound the memory of long runs, and time no test: a busy machine would fail it."""
+    """Bound the memory of long runs."""
     compile_in_children()
-    settings.register_profile("untimed", parent=settings(), deadline=None)
-    settings.load_profile("untimed")
 
 
 def pytest_collection_modifyitems(items) -> None:

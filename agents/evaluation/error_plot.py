@@ -9,6 +9,7 @@ import numpy as np
 
 from dq_marine.agents.evaluation.episodes import Episode
 from dq_marine.agents.evaluation.metrics import Array, Metric
+from dq_marine.util.angle_lines import broken_at_jumps
 from dq_marine.util.figures import check_picture_path, keep_what_carries_data, new_figure, save_figure
 from dq_marine.util.plot_style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, VERMILLION
 
@@ -50,7 +51,8 @@ def _draw_metric(axes: Any, time: Array, metric: Metric, values: Array) -> None:
     axes.set_ylabel(f"{metric.label} [{metric.shown_unit}]" if metric.unit else metric.label)
     keep_what_carries_data(axes)
     if metric.tolerance is None:
-        axes.plot(time, values, color=COLOURS[0], linewidth=1.8)
+        line = broken_at_jumps(time, values, turn=360.0) if metric.unit == "rad" else (time, values)
+        axes.plot(*line, color=COLOURS[0], linewidth=1.8)
         return
     tolerance = float(metric.shown(metric.tolerance))
     error, smallest = np.abs(values), SMALLEST * tolerance

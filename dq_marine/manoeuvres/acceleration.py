@@ -20,6 +20,7 @@ class Acceleration(Result):
 
     Attributes:
         top_speed: that it came to, ahead [m/s].
+        settled: whether that speed was steady.
         time_63: to 63.2 % of it, 1 - 1/e, what a first-order lag needs one time constant for [s].
         time_90: to 90 % of it [s].
         distance_90: way by then [m].
@@ -28,15 +29,22 @@ class Acceleration(Result):
     manoeuvre: ClassVar[str] = "acceleration"
 
     top_speed: float
+    settled: bool
     time_63: float | None
     time_90: float | None
     distance_90: float | None
 
+    @property
+    def speed_name(self) -> str:
+        """What the speed at the end is called."""
+        return "top speed" if self.settled else "speed at the end, not steady"
+
     def quantities(self) -> tuple[Quantity, ...]:
         """Return the numbers that the manoeuvre was run for."""
+        name = self.speed_name
         return (
-            Quantity("top_speed_m_s", "top speed", self.top_speed, "m/s"),
-            Quantity("top_speed_lengths_s", "top speed", self.top_speed / self.length, "L/s"),
+            Quantity("top_speed_m_s", name, self.top_speed, "m/s"),
+            Quantity("top_speed_lengths_s", name, self.top_speed / self.length, "L/s"),
             Quantity("time_63_s", "time to 63 % of it", self.time_63, "s"),
             Quantity("time_90_s", "time to 90 % of it", self.time_90, "s"),
             Quantity("distance_90_m", "way to 90 % of it", self.distance_90, "m"),
@@ -82,6 +90,7 @@ def acceleration(
             *run_notes(vehicle, series),
         ),
         top_speed=top,
+        settled=steady.settled,
         time_63=time_63,
         time_90=time_90,
         distance_90=value_at(time, series.distance, time_90),

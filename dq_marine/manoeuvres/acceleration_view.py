@@ -28,7 +28,7 @@ def draw(result: Acceleration) -> Any:
     speed.plot(series.time, series.velocity_body[:, 0], color=SPEED_COLOUR, linewidth=1.8)
     speed.axhline(result.top_speed, color=GUIDE_COLOUR, linestyle="--", linewidth=0.9)
     speed.annotate(
-        f"top speed {readable(result.top_speed)} m/s",
+        f"{result.speed_name} {readable(result.top_speed)} m/s",
         (float(series.time[-1]), result.top_speed),
         xytext=(0, -4),
         textcoords="offset points",

@@ -39,6 +39,7 @@ class SteadyTurn:
     """Means over the last half circle, towards the side of the turn.
 
     Attributes:
+        settled: whether the turn had become steady; if not, they are those of one half circle among unlike ones.
         radius: of the track [m].
         speed: in the horizontal plane [m/s].
         yaw_rate: of the heading [rad/s].
@@ -47,6 +48,7 @@ class SteadyTurn:
         centre: of the circle, ahead of and towards the turning side of the place where the helm was put over [m].
     """
 
+    settled: bool
     radius: float
     speed: float
     yaw_rate: float
@@ -90,6 +92,7 @@ class TurningCircle(Result):
     def quantities(self) -> tuple[Quantity, ...]:
         """Return the numbers that the manoeuvre was run for."""
         length, steady = self.length, self.steady
+        which = "steady {}" if steady is None or steady.settled else "{} in the last half circle"
         return (
             Quantity("approach_speed_m_s", "approach speed", self.approach_speed, "m/s"),
             Quantity("advance_m", "advance at 90 deg", self.advance, "m", 4.5 * length),
@@ -108,20 +111,26 @@ class TurningCircle(Result):
             Quantity("time_90_s", "time to 90 deg", self.time_90, "s"),
             Quantity("time_180_s", "time to 180 deg", self.time_180, "s"),
             Quantity("time_360_s", "time to 360 deg", self.time_360, "s"),
-            Quantity("steady_radius_m", "steady radius", steady.radius if steady else None, "m"),
-            Quantity("steady_speed_m_s", "steady speed", steady.speed if steady else None, "m/s"),
+            Quantity("steady_radius_m", which.format("radius"), steady.radius if steady else None, "m"),
+            Quantity("steady_speed_m_s", which.format("speed"), steady.speed if steady else None, "m/s"),
             Quantity("speed_loss_percent", "loss of speed in the turn", self._speed_loss, "%"),
             Quantity(
-                "yaw_rate_deg_s", "steady rate of turn", degrees(steady.yaw_rate if steady else None), "deg/s"
+                "yaw_rate_deg_s",
+                which.format("rate of turn"),
+                degrees(steady.yaw_rate if steady else None),
+                "deg/s",
             ),
             Quantity(
                 "drift_angle_deg",
-                "steady drift angle",
+                which.format("drift angle"),
                 degrees(steady.drift_angle if steady else None),
                 "deg",
             ),
             Quantity(
-                "roll_deg", "steady roll, into the turn", degrees(steady.roll if steady else None), "deg"
+                "roll_deg",
+                which.format("roll") + ", into the turn",
+                degrees(steady.roll if steady else None),
+                "deg",
             ),
             Quantity("largest_roll_deg", "largest roll", degrees(self.largest_roll), "deg"),
             Quantity(
@@ -168,7 +177,7 @@ def turning_circle(
     ahead, aside = series.along_and_across().T * np.array([[1.0], [sign]])
     under_way = series.time >= 0.0
     times = [first_time_at(series.time, turned, math.radians(angle)) for angle in (90.0, 180.0, 360.0)]
-    steady = steady_turn(series, sign)
+    steady = steady_turn(series, sign, settled=settled)
     return TurningCircle(
         vehicle=vehicle.name,
         length=setup.length,
@@ -176,7 +185,7 @@ def turning_circle(
         settings=setup.settings | {"helm": helm, "side": side},
         step=setup.scene.step,
         series=series,
-        notes=(*start.notes, *_notes(steady, settled, series), *run_notes(vehicle, series)),
+        notes=(*start.notes, *_notes(steady, series), *run_notes(vehicle, series)),
         side=side,
         approach_speed=start.speed,
         advance=value_at(series.time, ahead, times[0]),
@@ -214,8 +223,8 @@ def _is_steady(marks: list[tuple[float, Array]]) -> bool:
     return all(abs(now - before) <= STEADY_CHANGE * now for before, now in pairs)
 
 
-def steady_turn(series: Series, sign: float) -> SteadyTurn | None:
-    """Return the turn over its last half circle; None if it is not all around."""
+def steady_turn(series: Series, sign: float, *, settled: bool) -> SteadyTurn | None:
+    """Return the turn, which has settled or not, over its last half circle; None if it is not all around."""
     turned = sign * series.heading_change
     end = float(turned[-1])
     if end < 2.0 * math.pi:
@@ -229,6 +238,7 @@ def steady_turn(series: Series, sign: float) -> SteadyTurn | None:
     track = series.along_and_across()[last] * np.array([1.0, sign])
     centre = (track + radius * _inward(track)).mean(axis=0)
     return SteadyTurn(
+        settled=settled,
         radius=radius,
         speed=speed,
         yaw_rate=yaw_rate,
@@ -238,11 +248,11 @@ def steady_turn(series: Series, sign: float) -> SteadyTurn | None:
     )
 
 
-def _notes(steady: SteadyTurn | None, settled: bool, series: Series) -> tuple[str, ...]:
+def _notes(steady: SteadyTurn | None, series: Series) -> tuple[str, ...]:
     if steady is None:
         turned = math.degrees(abs(float(series.heading_change[-1])))
         return (f"It turned by {turned:.0f} deg only in {series.time[-1]:.4g} s.",)
-    if not settled:
+    if not steady.settled:
         return ("The turn did not become steady: its steady figures are means over the last half circle.",)
     return ()
 

@@ -22,6 +22,7 @@ from dq_marine.manoeuvres.canvas import (
 )
 from dq_marine.manoeuvres.sides import SIGNS
 from dq_marine.manoeuvres.turning_circle import TurningCircle
+from dq_marine.util.angle_lines import broken_at_jumps
 from dq_marine.util.plot_style import PURPLE
 from dq_marine.util.readable import readable
 
@@ -48,20 +49,22 @@ def draw(result: TurningCircle) -> Any:
 
 
 def _draw_measures(axes: Any, result: TurningCircle) -> None:
-    """Draw advance, transfer, tactical diameter and the steady circle."""
+    """Draw advance, transfer, tactical diameter and, if the turn became steady, its circle."""
     sign, steady = SIGNS[result.side], result.steady
     if steady is not None:
-        angle = np.linspace(0.0, 2.0 * np.pi, 181)
         ahead, aside = steady.centre
-        axes.plot(
-            sign * aside + steady.radius * np.cos(angle),
-            ahead + steady.radius * np.sin(angle),
-            color=GUIDE_COLOUR,
-            linestyle="--",
-            linewidth=1.0,
-        )
+        if steady.settled:
+            angle = np.linspace(0.0, 2.0 * np.pi, 181)
+            axes.plot(
+                sign * aside + steady.radius * np.cos(angle),
+                ahead + steady.radius * np.sin(angle),
+                color=GUIDE_COLOUR,
+                linestyle="--",
+                linewidth=1.0,
+            )
+        name = "steady radius" if steady.settled else "not steady:\nradius at the end"
         axes.annotate(
-            f"steady radius\n{readable(steady.radius)} m",
+            f"{name}\n{readable(steady.radius)} m",
             (sign * aside, ahead),
             ha="center",
             va="center",
@@ -117,8 +120,7 @@ def _draw_rates(panels: list[Any], result: TurningCircle) -> None:
     over_time(speed, "speed [m/s]")
     speed.set_ylim(bottom=0.0)
     angles.plot(
-        series.time,
-        np.degrees(series.drift_angle),
+        *broken_at_jumps(series.time, np.degrees(series.drift_angle), turn=360.0),
         color=PURPLE,
         linewidth=1.5,
         label="drift, bow to starboard",

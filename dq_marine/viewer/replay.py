@@ -95,7 +95,7 @@ def _messages(snapshots: Sequence[Snapshot], times: FloatArray, drawing: Drawing
     for snapshot in snapshots:
         messages += drawing.appear(snapshot)
     frames = [drawing.placements(snapshot) for snapshot in snapshots]
-    messages.append(draw_trail(np.array([snapshot.position_ned for snapshot in snapshots])))
+    messages.append(draw_trail(np.array([snapshot.position_ned for snapshot in snapshots]), times))
     messages += [set_transform(path, placement) for path, placement in frames[0].items()]
     clips = [
         {"path": path, "clip": _clip(path, [frame[path] for frame in frames], times)}

@@ -26,10 +26,34 @@ SNAPSHOT_ARRAYS = {
     "quaternion_body_to_ned": 4,
     "wrench_body": 6,
     "current_ned": 3,
+    "wind_ned": 3,
     "goal_position_ned": 3,
     "goal_quaternion_body_to_ned": 4,
 }
 """Numbers in each array of a snapshot; the fours are unit quaternions."""
+
+OPTIONAL = ("wind_ned", "goal_position_ned", "goal_quaternion_body_to_ned")
+"""Those that may be None."""
+
+
+@dataclass(frozen=True, eq=False)
+class Thrust:
+    """The force of one actuator on the vehicle.
+
+    Attributes:
+        position_body: where it acts in body axes [m], shape (3,).
+        force_body: in body axes [N], shape (3,).
+
+    Raises:
+        InvalidInputError: a wrong size, or a value that is not finite.
+    """
+
+    position_body: FloatArray
+    force_body: FloatArray
+
+    def __post_init__(self) -> None:
+        for name in ("position_body", "force_body"):
+            _set_read_only(self, name, finite_array(f"thrust {name}", getattr(self, name), 3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +70,8 @@ class Snapshot:
         current_ned: velocity of the water [m/s], shape (3,).
         goal_position_ned: where the vehicle should go [m], shape (3,), or None without a goal.
         goal_quaternion_body_to_ned: the attitude wanted there, shape (4,), or None for any attitude.
+        thrusts: the force of each actuator, where they are known one by one; `wrench_body` is of all.
+        wind_ned: velocity of the mean wind [m/s], shape (3,), or None without wind.
         things: what is around the vehicle.
         sea: the waves; None for a calm surface.
         sea_start: time of the sea when `time` is 0 [s].
@@ -61,6 +87,8 @@ class Snapshot:
     current_ned: FloatArray
     goal_position_ned: FloatArray | None = None
     goal_quaternion_body_to_ned: FloatArray | None = None
+    thrusts: tuple[Thrust, ...] = ()
+    wind_ned: FloatArray | None = None
     things: tuple[Thing, ...] = ()
     sea: Sea | None = None
     sea_start: float = 0.0
@@ -73,10 +101,15 @@ class Snapshot:
                 )
         for name, size in SNAPSHOT_ARRAYS.items():
             value = getattr(self, name)
-            if value is None and name.startswith("goal_"):
+            if value is None and name in OPTIONAL:
                 continue
             checked = unit_quaternion(name, value) if size == 4 else finite_array(name, value, size)
             _set_read_only(self, name, checked)
+        for number, thrust in enumerate(self.thrusts):
+            if not isinstance(thrust, Thrust):
+                raise InvalidInputError(
+                    f"thrusts[{number}] is {shown(thrust)}; give a dq_marine.viewer.snapshot.Thrust"
+                )
         for number, thing in enumerate(self.things):
             if not isinstance(thing, Thing) or not isinstance(thing.form, Form):
                 raise InvalidInputError(
@@ -130,7 +163,8 @@ class Shape:
         width: along body y [m].
         height: along body z [m].
         thrusters: drawn one by one; may be empty.
-        max_force: force [N] at which the thrust arrow has its full length.
+        max_force: force [N] at which the arrow of the net thrust has its full length.
+        max_thrust: the same of the arrow of one actuator; None for `max_force`.
         kind: `open_frame` (a work-class or inspection ROV), `torpedo` (an AUV: a body of revolution with
             fins), `ellipsoid`, or afloat `catamaran` or `ship`.
         draft: depth of the keel below the origin [m]; None for half the height.
@@ -146,11 +180,12 @@ class Shape:
     max_force: float = 100.0
     kind: ShapeKind = "open_frame"
     draft: float | None = None
+    max_thrust: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("length", "width", "height", "max_force", "draft"):
+        for name in ("length", "width", "height", "max_force", "draft", "max_thrust"):
             value = getattr(self, name)
-            if name == "draft" and value is None:
+            if name in ("draft", "max_thrust") and value is None:
                 continue
             if not (math.isfinite(value) and value > 0.0):
                 raise InvalidInputError(f"shape {name} is {value}; give a finite number above 0")

@@ -7,20 +7,23 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.algebra.spatial import to_fossen
+from dq_marine.algebra.spatial import Spatial, to_fossen
 from dq_marine.backend.packing import unpack
 from dq_marine.checks import real_numbers
 from dq_marine.envs.core.episode import Episode
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import StepParameters
-from dq_marine.physics.actuators.formulas.stepping import make_actuator_wrench
+from dq_marine.physics.actuators.build import actuator_parts
+from dq_marine.physics.actuators.formulas.stepping import actuators_reader, make_actuator_wrench
+from dq_marine.physics.actuators.mounting import each_force, mounting_points
 from dq_marine.simulation.scene import Scene
 from dq_marine.task.action import AXES
 from dq_marine.task.actuated_task import with_actuators
 from dq_marine.task.episode import EpisodeTask
 from dq_marine.vehicles import Vehicle
 from dq_marine.vehicles.model import MOTIONS
+from dq_marine.viewer.snapshot import Thrust
 
 
 class ActionMapping(Protocol):
@@ -46,6 +49,9 @@ class ActionMapping(Protocol):
     ) -> NDArray[np.float64]:
         """Return what acts on the body now, in Fossen's order, shape (6,) [N, N m]."""
 
+    def thrusts(self, vehicle: Vehicle, parameters: StepParameters, episode: Episode) -> tuple[Thrust, ...]:
+        """Return the force of each actuator now; none where actions are wrenches."""
+
 
 class WrenchMapping:
     """An action is the thrust and torque of the actuated axes over their limits."""
@@ -66,6 +72,10 @@ class WrenchMapping:
         """Return the wrench of the last action."""
         return episode.action * vehicle.wrench_limits
 
+    def thrusts(self, vehicle: Vehicle, parameters: StepParameters, episode: Episode) -> tuple[Thrust, ...]:
+        """Return none: nobody knows which actuators make the wrench."""
+        return ()
+
 
 class ActuatorsMapping:
     """An action is the command of every channel over its limit on that side."""
@@ -74,6 +84,8 @@ class ActuatorsMapping:
         """Take a scene with actuators."""
         self._actuation = scene.composition.actuation
         self._wrench = make_actuator_wrench(scene.composition)
+        self._read = actuators_reader(scene.composition)
+        self._effects = tuple(part.kind.effect for part in actuator_parts(scene.vehicle))
         self.size = self._actuation.channels
         self.places = np.arange(self.size)
         self.names = tuple(channel.name for channel in scene.vehicle.channels)
@@ -86,9 +98,18 @@ class ActuatorsMapping:
         self, vehicle: Vehicle, parameters: StepParameters, episode: Episode
     ) -> NDArray[np.float64]:
         """Return what the actuators do now; their channels are what the memory ends with."""
+        return np.array(to_fossen(self._wrench(parameters, *self._state(parameters, episode))))
+
+    def thrusts(self, vehicle: Vehicle, parameters: StepParameters, episode: Episode) -> tuple[Thrust, ...]:
+        """Return what each actuator does now, where it is mounted."""
+        numbers = self._read(parameters).effects
+        forces = each_force(self._effects, numbers, *self._state(parameters, episode))
+        return tuple(Thrust(*pair) for pair in zip(mounting_points(vehicle), forces, strict=True))
+
+    def _state(self, parameters: StepParameters, episode: Episode) -> tuple[Any, Spatial]:
+        """Return the channels' values, nested, and the twist relative to the water."""
         values = unpack(self._actuation.rest, episode.memory[-self.size :])
-        twist = twist_from_momentum(parameters.inertia, episode.body.momentum)
-        return np.array(to_fossen(self._wrench(parameters, values, twist)))
+        return values, twist_from_momentum(parameters.inertia, episode.body.momentum)
 
 
 def action_mapping_of(scene: Scene) -> ActionMapping:

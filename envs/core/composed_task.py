@@ -28,6 +28,7 @@ from dq_marine.integrator.step import StepParameters, make_motion
 from dq_marine.physics.current.build import draw_of
 from dq_marine.physics.waves.loads import WaveLoads
 from dq_marine.physics.waves.sea import Sea
+from dq_marine.physics.wind.build import Wind
 from dq_marine.simulation.settings import Settings, VehicleLike
 from dq_marine.task.episode import EpisodeParameters, episode_task
 from dq_marine.task.period import draws_of_period
@@ -138,6 +139,12 @@ class ComposedTask:
         """The waves of the scene's weather, under its gravity; None for a calm surface."""
         seas = [part.sea for part in self.scene.weather if isinstance(part, WaveLoads)]
         return seas[0].in_gravity(self.scene.vehicle.gravity) if seas else None
+
+    @property
+    def wind_ned(self) -> NDArray[np.float64] | None:
+        """Velocity of the mean wind of the scene's weather, shape (3,) [m/s]; None without wind."""
+        winds = [part for part in self.scene.weather if isinstance(part, Wind)]
+        return winds[0].mean_ned if winds else None
 
     @property
     def vehicle(self) -> Vehicle:

@@ -35,6 +35,7 @@ def shape_of(vehicle: Vehicle) -> Shape:
         kind=size.shape,
         draft=size.draft,
         max_force=float(vehicle.wrench_limits[:3].max()) or 1.0,
+        max_thrust=_largest_thrust(vehicle),
         thrusters=tuple(
             Thruster(np.array(position), np.array(direction))
             for position, direction in (
@@ -43,6 +44,18 @@ def shape_of(vehicle: Vehicle) -> Shape:
             )
         ),
     )
+
+
+def _largest_thrust(vehicle: Vehicle) -> float | None:
+    """Return a thrust that is large for a propeller [N]: its largest at rest, if it is not more than the vehicle needs.
+
+    None where no propeller says it.
+    """
+    actuators = vehicle.actuators
+    ranges = [one.thrust_range for one in (*actuators.thrusters, *actuators.azimuths)]
+    largest = max((max(-low, high) for low, high in ranges), default=0.0)
+    limit = float(vehicle.wrench_limits[:3].max())
+    return (min(largest, limit) if limit else largest) or None
 
 
 def checked_render_mode(mode: str | None, known: list[str]) -> str | None:

@@ -9,6 +9,7 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from numba.core.runtime import _nrt_python, rtsys
+from support.sweeps import sweep
 
 import dq_marine  # noqa: F401 - registers
 from dq_marine.backend import workers
@@ -93,8 +94,10 @@ def test_memory_for_each_body():
     assert scene.batch(64, precision="float32").bytes_per_body < 100
 
 
-@pytest.mark.parametrize("threads", [1, 2])
-@pytest.mark.parametrize(("wrench_rows", "bytes_per_body"), [("each", 8), ("all", 8 + 6 * 8)])
+@pytest.mark.parametrize("threads", sweep([1, 2], plain=[1]))
+@pytest.mark.parametrize(
+    ("wrench_rows", "bytes_per_body"), sweep([("each", 8), ("all", 8 + 6 * 8)], plain=[("all", 8 + 6 * 8)])
+)
 def test_a_step_of_a_batch_leaves_nothing_behind(threads, wrench_rows, bytes_per_body):
     """It takes one number a body for a while, to count who took the fallback; a wrench for all is written out."""
     size = 2048
@@ -127,7 +130,7 @@ def bytes_in(value):
     return sum(bytes_in(part) for part in parts)
 
 
-@pytest.mark.parametrize("keywords", [{}, {"copy": False}, {"threads": 2}], ids=str)
+@pytest.mark.parametrize("keywords", sweep([{}, {"copy": False}, {"threads": 2}], plain=[{}]), ids=str)
 def test_a_step_of_a_vector_environment_leaves_nothing_behind(keywords):
     """It takes what it returns, twice: the last step's is dropped when the next one's is there."""
     envs = gym.make_vec("dq_marine/StationKeeping-v0", num_envs=256, **keywords)

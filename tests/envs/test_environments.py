@@ -132,6 +132,7 @@ def test_the_checker_finds_nothing():
     check_env(StationKeepingEnv(weather=[SEA]), skip_render_check=True)
 
 
+@pytest.mark.sweep  # each by itself is met in a plain run
 def test_a_current_that_wanders_keeps_to_the_clock_of_the_sea():
     """Its course is told in the sea's time, and does not jump when an episode begins."""
     env = StationKeepingEnv(weather=[SEA], current=WANDERING)

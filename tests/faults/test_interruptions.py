@@ -101,6 +101,7 @@ def is_stopped(pid: int) -> bool:
     return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "T"
 
 
+@pytest.mark.sweep  # tests/agents/training has one that is killed
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="/proc tells whether a process is stopped")
 def test_a_training_that_is_stopped_goes_on_and_keeps_others_out(tmp_path: Path) -> None:
     folder = RunFolder(tmp_path / "run")

@@ -49,6 +49,7 @@ def test_a_command_runs_without_its_first_standard_files(closed: int, tmp_path: 
     assert "otter" in file.read_text().lower()
 
 
+@pytest.mark.sweep  # a reader that has gone is one, too
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
 def test_output_to_a_full_disk_is_one_message() -> None:
     with Path("/dev/full").open("w") as full:
@@ -76,6 +77,7 @@ print(compile_function(norm, "a test")((3.0, 4.0, 0.0)))
 """
 
 
+@pytest.mark.sweep  # tests/backend/test_disk_cache.py has other folders that cannot be written
 def test_who_has_no_home_compiles_anew() -> None:
     result = ended([sys.executable, "-c", HOMELESS], stdout=subprocess.PIPE)
     assert result.stdout == "32.0\n5.0\n", result.stderr
@@ -117,6 +119,7 @@ def test_a_viewer_needs_no_network_but_its_own_computer() -> None:
     assert result.stdout == "200\n", result.stderr
 
 
+@pytest.mark.sweep  # tests/agents/training resumes one
 def test_a_training_does_not_mind_a_clock_that_is_set_back(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

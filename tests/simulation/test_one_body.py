@@ -214,6 +214,7 @@ def test_a_push_without_a_moment_is_solved(scheme, seed, log_push, log_noise):
     assert drift_accepted(report)
 
 
+@pytest.mark.sweep  # the catalogue flies it in lanes
 def test_a_heavy_coupled_vehicle_starts_from_rest():
     body = Scene("npsauv", step=0.02).stepper()
     body.step([10.0, 0.0, 0.0, 0.0, 0.0, 0.0])

@@ -1,7 +1,7 @@
 """Broad sweeps: run in CI and with `--sweeps`, left out of a plain `make test`.
 
 A sweep repeats a law over many vehicles, schemes or conditions, each of which must be compiled. Every law has at
-least one case that is no sweep.
+least one case that is no sweep. A law that holds for all inputs is tried on fewer of them in a plain run.
 """
 
 from __future__ import annotations
@@ -10,8 +10,12 @@ import os
 from collections.abc import Collection, Iterable
 
 import pytest
+from hypothesis import settings
 
 REASON = "a sweep: runs in CI and with --sweeps"
+
+EXAMPLES, EXAMPLES_IN_PLAIN_RUNS = 100, 40
+"""How many inputs hypothesis draws for a law that does not say so itself."""
 
 
 def sweep(cases: Iterable, *, plain: Collection) -> list:
@@ -39,6 +43,13 @@ def _marked(case):
 def pytest_addoption(parser) -> None:
     """Declare `--sweeps`."""
     parser.addoption("--sweeps", action="store_true", help="run the broad sweeps too, as CI does")
+
+
+def pytest_configure(config) -> None:
+    """Draw fewer inputs in a plain run, and time no test: a busy machine would fail it."""
+    examples = EXAMPLES if sweeps_wanted(config) else EXAMPLES_IN_PLAIN_RUNS
+    settings.register_profile("untimed", parent=settings(), deadline=None, max_examples=examples)
+    settings.load_profile("untimed")
 
 
 def sweeps_wanted(config) -> bool:

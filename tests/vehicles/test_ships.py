@@ -5,6 +5,7 @@ import functools
 import numpy as np
 import pytest
 from support.fossen import coriolis
+from support.sweeps import sweep
 
 from dq_marine.manoeuvres import turning_circle
 from dq_marine.simulation.scene import Scene
@@ -83,7 +84,7 @@ def test_the_tankers_damping_is_the_published():
 
 
 @pytest.mark.parametrize("degrees", [35.0, 30.0])
-@pytest.mark.parametrize("name", MAIN)
+@pytest.mark.parametrize("name", sweep(MAIN, plain=["tanker"]))
 def test_it_turns_like_a_ship(name, degrees):
     """IMO asks of all ships for 5 lengths of tactical diameter and 4.5 of advance at most (MSC.137(76))."""
     side = "starboard" if degrees == 35.0 else "port"

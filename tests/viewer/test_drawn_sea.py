@@ -60,6 +60,7 @@ def heights(page: Page, reach: float) -> RegularGridInterpolator:
     return RegularGridInterpolator((ticks, ticks), -z.reshape(len(ticks), len(ticks)).T)
 
 
+@pytest.mark.sweep  # a replay has the sea at its times in a plain run
 @pytest.mark.browser
 def test_at_the_hull_the_surface_is_the_simulated_one_to_a_centimetre(drawn) -> None:
     viewer, page, shape, sea = drawn
@@ -134,7 +135,9 @@ def test_an_environment_shows_the_sea_that_moves_its_vehicle() -> None:
     assert shown.sea is not None
     assert shown.sea.gravity == env.vehicle.gravity
     assert shown.sea_start == env.episode.clock > 0.0
-    assert gym.make("dq_marine/WaypointTracking-v0", vehicle="otter").unwrapped.sea is None
+    assert shown.wind_ned == pytest.approx([-3.0, 0.0, 0.0])
+    calm = gym.make("dq_marine/WaypointTracking-v0", vehicle="otter").unwrapped
+    assert calm.sea is calm.wind_ned is None
 
 
 def test_times_of_the_sea_are_numbers() -> None:

@@ -47,7 +47,7 @@ def draw(viewer: LiveViewer, page: Page, time: float, **changes: object) -> None
         "/world/vehicle/thrusters/0",
         "/world/goal/ghost",
         "/world/goal/ball",
-        "/world/thrust",
+        "/world/thrust/net",
         "/world/current/0",
         "/world/floor/sand",
         "/world/floor/grid",

@@ -302,6 +302,21 @@ def test_readings_and_their_history(viewer: LiveViewer, page: Page) -> None:
     assert page.evaluate(inked)
 
 
+def test_the_history_of_an_angle_has_a_gap_where_it_goes_round(viewer: LiveViewer, page: Page) -> None:
+    page.evaluate("""
+      window.moves = [];
+      const pen = CanvasRenderingContext2D.prototype, move = pen.moveTo;
+      pen.moveTo = function (...place) { moves.push(this.canvas); return move.apply(this, place); };
+    """)
+    for second, angle in enumerate((170.0, -170.0, -150.0)):
+        turns = (Reading("heading", angle, "deg"), Reading("offset", angle, "m"))
+        viewer.show_readings(float(second), {"Turn": turns})
+    row = "[...document.querySelectorAll('#panel-readings .row')].find((one) => one.innerText.includes('{}'))"
+    page.wait_until(f"{row.format('offset')}?.querySelector('output').textContent === '-150.0 m'")
+    for name, gap in (("heading", True), ("offset", False)):
+        assert page.evaluate(f"moves.includes({row.format(name)}.querySelector('canvas'))") is gap
+
+
 def test_a_notice(viewer: LiveViewer, page: Page) -> None:
     viewer.show_notice("The task is done.")
     page.wait_until(f"{element('notice')}.textContent === 'The task is done.'")

@@ -9,7 +9,7 @@ import pytest
 from viewer.samples import ROV, snapshot
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.viewer.snapshot import Shape, Thruster
+from dq_marine.viewer.snapshot import Shape, Thrust, Thruster
 
 
 def test_arrays_are_read_only_copies() -> None:
@@ -37,6 +37,8 @@ def test_single_precision_and_lists_become_doubles() -> None:
         ("quaternion_body_to_ned", [1.0, 0.1, 0.0, 0.0], "quaternion_body_to_ned.*unit"),
         ("goal_position_ned", [0.0, float("nan"), 0.0], "goal_position_ned.*finite"),
         ("goal_quaternion_body_to_ned", [0.0] * 4, "goal_quaternion_body_to_ned.*unit"),
+        ("wind_ned", [1.0, 2.0], "wind_ned has shape"),
+        ("thrusts", ([1.0, 0.0, 0.0],), r"thrusts\[0\] is"),
     ],
 )
 def test_bad_snapshots_are_refused(field: str, value: Any, complaint: str) -> None:
@@ -44,7 +46,7 @@ def test_bad_snapshots_are_refused(field: str, value: Any, complaint: str) -> No
         snapshot(**{field: value})
 
 
-@pytest.mark.parametrize("field", ["length", "width", "height", "max_force"])
+@pytest.mark.parametrize("field", ["length", "width", "height", "max_force", "max_thrust"])
 @pytest.mark.parametrize("value", [0.0, -1.0, float("nan"), float("inf")])
 def test_sizes_must_be_positive(field: str, value: float) -> None:
     sizes = {"length": 1.0, "width": 1.0, "height": 1.0, "max_force": 1.0, field: value}
@@ -55,6 +57,11 @@ def test_sizes_must_be_positive(field: str, value: float) -> None:
 def test_unknown_kind_is_refused() -> None:
     with pytest.raises(InvalidInputError, match="open_frame, torpedo, ellipsoid"):
         Shape(1.0, 1.0, 1.0, kind="glider")  # type: ignore[arg-type]
+
+
+def test_a_thrust_needs_finite_vectors() -> None:
+    with pytest.raises(InvalidInputError, match=r"force_body.*finite"):
+        Thrust(np.zeros(3), np.array([0.0, float("nan"), 0.0]))
 
 
 def test_thruster_needs_a_direction() -> None:

@@ -89,16 +89,7 @@ def actuation_term(vehicle: Vehicle) -> ActuationTerm:
     Raises:
         InvalidInputError: the vehicle's file tells the thrust of none.
     """
-    actuators = vehicle.actuators
-    parts = [
-        *map(_thruster, actuators.thrusters),
-        *map(_azimuth, actuators.azimuths),
-        *map(_fin, actuators.fins),
-    ]
-    if actuators.manoeuvring is not None:
-        parts.append(_stern(actuators.manoeuvring, vehicle.buoyancy.water_density))
-    if actuators.whole_ship is not None:
-        parts.append(_whole_ship_rudder(actuators.whole_ship, vehicle.buoyancy.water_density))
+    parts = actuator_parts(vehicle)
     if not parts:
         raise InvalidInputError(
             f"vehicle {vehicle.name!r} has no actuators whose force is known; add thrust_forward and thrust_reverse "
@@ -109,6 +100,21 @@ def actuation_term(vehicle: Vehicle) -> ActuationTerm:
         nested([channel for part in parts for channel in part.channels]),
         nested([part.effect for part in parts]),
     )
+
+
+def actuator_parts(vehicle: Vehicle) -> tuple[ActuatorPart, ...]:
+    """Return a vehicle's actuators one by one, in the order of their channels; none of those without a known force."""
+    actuators = vehicle.actuators
+    parts = [
+        *map(_thruster, actuators.thrusters),
+        *map(_azimuth, actuators.azimuths),
+        *map(_fin, actuators.fins),
+    ]
+    if actuators.manoeuvring is not None:
+        parts.append(_stern(actuators.manoeuvring, vehicle.buoyancy.water_density))
+    if actuators.whole_ship is not None:
+        parts.append(_whole_ship_rudder(actuators.whole_ship, vehicle.buoyancy.water_density))
+    return tuple(parts)
 
 
 def _thruster(thruster: Thruster) -> ActuatorPart:

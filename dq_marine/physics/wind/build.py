@@ -141,6 +141,16 @@ class Wind:
         """Gusts do."""
         return self.gusts and self.speed > 0.0
 
+    @property
+    def along(self) -> NDArray[np.float64]:
+        """Unit vector of where it goes, shape (3,)."""
+        return -np.array([math.cos(self.direction_from), math.sin(self.direction_from), 0.0])
+
+    @property
+    def mean_ned(self) -> NDArray[np.float64]:
+        """Velocity of the mean wind at 10 m above the sea, shape (3,) [m/s]."""
+        return self.speed * self.along
+
     def terms(self, vehicle: Vehicle, current_ned: NDArray[np.float64]) -> tuple[ForceTerm, ...]:
         """Return the force on a vehicle in a current [m/s], shape (3,).
 
@@ -149,11 +159,10 @@ class Wind:
         """
         hold = Windage.of(vehicle) if self.windage is None else self.windage
         height = max(hold.height, LOWEST)
-        along = -np.array([math.cos(self.direction_from), math.sin(self.direction_from), 0.0])
         mean = max(mean_speed(self.speed, height), 0.0)
         parameters = WindForce(
-            air=vector3(mean * along - current_ned),
-            along=vector3(along),
+            air=vector3(mean * self.along - current_ned),
+            along=vector3(self.along),
             surge=0.5 * self.air_density * hold.c_x * hold.frontal_area,
             sway=0.5 * self.air_density * hold.c_y * hold.lateral_area,
             yaw=self.air_density * hold.c_n * hold.lateral_area * hold.length,

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from dq_marine.viewer.meshes import Mesh, cuboid, cylinder, plate, sphere
 from dq_marine.viewer.models.hull_mesh import Level, lofted
-from dq_marine.viewer.models.paint import DARK, LAMP, SIGNAL_ORANGE
+from dq_marine.viewer.models.paint import BOW_VIOLET, DARK, LAMP
 from dq_marine.viewer.placement import Y_AXIS, Placement, rotation_between
 from dq_marine.viewer.snapshot import Shape
 from dq_marine.viewer.transport.three_json import Painted
 
 PONTOON, BOX = 0xF6C516, 0xE9EDEF
-DECK, BOW = DARK, SIGNAL_ORANGE
+DECK, BOW = DARK, BOW_VIOLET
 
 SIDES = (-1, 1)
 PONTOON_WIDTH = 0.25
@@ -70,7 +70,7 @@ def _mast(shape: Shape) -> list[Painted]:
 
 
 def _heading_mark(shape: Shape) -> list[Painted]:
-    """An orange arrow on the platform that points to the bow, and an orange bar across it."""
+    """A violet arrow on the platform that points to the bow, and a violet bar across it."""
     L, W, H = shape.length, shape.width, shape.height
     top = shape.keel - H
     outline = [(0.29 * L, 0.0), (0.12 * L, 0.14 * W), (0.12 * L, -0.14 * W)]

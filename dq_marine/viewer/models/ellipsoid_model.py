@@ -1,4 +1,4 @@
-"""An ellipsoid: a smooth hull with a dark belt that shows roll, an orange nose and an arrow on its back.
+"""An ellipsoid: a smooth hull with a dark belt that shows roll, a violet nose and an arrow on its back.
 
 Everything is a fraction of the vehicle's length L, width W and height H, in body axes (x forward, y starboard, z down).
 """
@@ -6,12 +6,12 @@ Everything is a fraction of the vehicle's length L, width W and height H, in bod
 from __future__ import annotations
 
 from dq_marine.viewer.meshes import plate, rounded_block
-from dq_marine.viewer.models.paint import DARK, SIGNAL_ORANGE, YELLOW
+from dq_marine.viewer.models.paint import BOW_VIOLET, DARK, YELLOW
 from dq_marine.viewer.placement import Placement
 from dq_marine.viewer.snapshot import Shape
 from dq_marine.viewer.transport.three_json import Painted
 
-HULL, BOW = YELLOW, SIGNAL_ORANGE
+HULL, BOW = YELLOW, BOW_VIOLET
 
 ELLIPSOID = 1.0
 """Roundness of a superellipsoid that is an ellipsoid."""

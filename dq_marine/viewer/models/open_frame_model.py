@@ -7,12 +7,12 @@ Everything is a fraction of the vehicle's length L, width W and height H, in bod
 from __future__ import annotations
 
 from dq_marine.viewer.meshes import Mesh, cuboid, cylinder, plate, rounded_block, sphere
-from dq_marine.viewer.models.paint import BRIGHT_ORANGE, DARK, LAMP
+from dq_marine.viewer.models.paint import BOW_VIOLET, DARK, LAMP
 from dq_marine.viewer.placement import Y_TO_X, Placement
 from dq_marine.viewer.snapshot import Shape
 from dq_marine.viewer.transport.three_json import Painted
 
-FRAME, BOW = DARK, BRIGHT_ORANGE
+FRAME, BOW = DARK, BOW_VIOLET
 FLOAT = 0x1F78E0
 TUBE = 0xD5DEE4
 FLANGE = 0x4A555E
@@ -86,7 +86,7 @@ def _tubes(shape: Shape) -> list[Painted]:
 
 
 def _heading_mark(shape: Shape) -> list[Painted]:
-    """An orange arrow on top that points to the bow, and an orange bar across the bow."""
+    """A violet arrow on top that points to the bow, and a violet bar across the bow."""
     L, W, H = shape.length, shape.width, shape.height
     outline = [
         (0.40 * L, 0.0),

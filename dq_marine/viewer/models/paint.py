@@ -6,5 +6,5 @@ YELLOW = 0xF7BE0A
 DARK = 0x2B323A
 LAMP = 0xFFF6CC
 SIGNAL_ORANGE = 0xFF5A0A
-BRIGHT_ORANGE = 0xFF6A13
-"""Bows are orange, so that one sees where a vehicle is heading."""
+BOW_VIOLET = 0xC24BFF
+"""Of bows, so that one sees where a vehicle is heading: the colour of no force, current, track or goal."""

@@ -1,4 +1,4 @@
-"""A ship: a red bottom and a dark hull with a raised bow, a white bridge, a funnel, an orange mark ahead.
+"""A ship: a red bottom and a dark hull with a raised bow, a white bridge, a funnel, a violet mark ahead.
 
 Everything follows from length L, width W, height H from keel to deck and draft T, in body axes (x forward, y starboard,
 z down) with the still waterline at z = 0.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dq_marine.viewer.meshes import Mesh, cuboid, cylinder, plate
 from dq_marine.viewer.models.hull_mesh import Level, lofted
-from dq_marine.viewer.models.paint import BRIGHT_ORANGE
+from dq_marine.viewer.models.paint import BOW_VIOLET
 from dq_marine.viewer.placement import Y_AXIS, Placement, rotation_between, vector3
 from dq_marine.viewer.snapshot import Shape
 from dq_marine.viewer.transport.three_json import Painted
@@ -18,7 +18,7 @@ HULL = 0x1F3A5F
 DECK = 0x58775F
 HOUSE = 0xF1F3F4
 WINDOWS = 0x18222C
-BOW = BRIGHT_ORANGE
+BOW = BOW_VIOLET
 
 LARGE = 120.0
 """Length [m] from which the bridge stands aft, as on tankers, instead of forward, as on supply ships."""
@@ -85,7 +85,7 @@ def _bridge(shape: Shape) -> list[Painted]:
     parts = [Painted(_at(cuboid(a, b, c), x, 0.0, deck - up), color) for a, b, c, up, color in house]
     mast = _upright(0.012 * W, 2.0 * storey, x, 0.0, deck - 3.6 * storey)
     funnel = _upright(0.07 * W, 1.6 * storey, x - 0.42 * length, 0.28 * W, deck - 2.2 * storey)
-    return [*parts, Painted(mast, WINDOWS), Painted(funnel, BOW)]
+    return [*parts, Painted(mast, WINDOWS), Painted(funnel, BOTTOM)]
 
 
 def _struts(shape: Shape) -> list[Painted]:
@@ -99,7 +99,7 @@ def _struts(shape: Shape) -> list[Painted]:
 
 
 def _heading_mark(shape: Shape) -> list[Painted]:
-    """An orange arrow on the open deck that points to the bow."""
+    """A violet arrow on the open deck that points to the bow."""
     L, W = shape.length, shape.width
     x = 0.1 * L if L > LARGE else -0.17 * L
     tip, wide = min(0.16 * L, 0.8 * W), 0.22 * W

@@ -9,12 +9,12 @@ from __future__ import annotations
 import math
 
 from dq_marine.viewer.meshes import Mesh, cylinder, plate, revolved
-from dq_marine.viewer.models.paint import DARK, SIGNAL_ORANGE, YELLOW
+from dq_marine.viewer.models.paint import BOW_VIOLET, DARK, YELLOW
 from dq_marine.viewer.placement import Y_TO_X, Placement
 from dq_marine.viewer.snapshot import Shape
 from dq_marine.viewer.transport.three_json import Painted
 
-HULL, BOW = YELLOW, SIGNAL_ORANGE
+HULL, BOW = YELLOW, BOW_VIOLET
 
 NOSE = 0.14
 TAIL = 0.26
@@ -67,7 +67,7 @@ def _fins(shape: Shape) -> list[Painted]:
 
 
 def _heading_mark(shape: Shape) -> list[Painted]:
-    """The nose in orange, and an orange arrow along the back that points to it."""
+    """The nose in violet, and a violet arrow along the back that points to it."""
     L, radius = shape.length, _radius(shape)
     angles = [step / CURVE_STEPS * math.pi / 2 for step in range(CURVE_STEPS + 1)]
     nose = [(radius * math.cos(angle), (0.5 - NOSE + NOSE * math.sin(angle)) * L) for angle in angles]

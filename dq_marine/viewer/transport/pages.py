@@ -159,19 +159,23 @@ def _inline(script: str) -> str:
 SERVED_MESHCAT = '<script src="main.min.js"></script>\n'
 
 PANEL_STYLE = f"<style>{_file('panel.css')}</style>\n"
+LEGEND = f"<style>{_file('legend.css')}</style>\n{_file('legend.html')}"
+
+SEA = _inline(_file("sea.js")) + _inline(_file("wake.js"))
 
 LIVE_PAGE = _page(
     "dq-marine",
-    CAPTION.replace("$title", "") + PANEL_STYLE + _file("panel.html"),
+    CAPTION.replace("$title", "") + LEGEND + PANEL_STYLE + _file("panel.html"),
     SERVED_MESHCAT,
     _inline(LIVE_SCRIPT + CAPTION_SCRIPT),
-    _inline(_file("sea.js")),
+    SEA,
+    _inline(_file("legend.js")),
     _inline(_file("glide.js")),
     _inline(_file("panel.js")),
     _inline(_file("view.js")),
     _inline(_file("drag.js")),
 )
-CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT), _inline(_file("sea.js")))
+CAPTURE_PAGE = _page("dq-marine", "", SERVED_MESHCAT, _inline(CAPTURE_SCRIPT), SEA)
 
 REPLAY_DATA_SCRIPT = """
   const messages = $messages;
@@ -181,11 +185,12 @@ REPLAY_DATA_SCRIPT = """
 REPLAY_PAGE = Template(
     _page(
         "$title",
-        CAPTION + CONTROLS,
+        CAPTION + CONTROLS + LEGEND.replace("$", "$$"),
         _inline("$meshcat"),
         _inline(REPLAY_DATA_SCRIPT),
         _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
-        _inline(_file("sea.js")),
+        SEA,
+        _inline(_file("legend.js").replace("$", "$$")),  # a template's dollars are doubled
     )
 )
 """The page of a replay, which needs nothing from outside: meshcat and all data go into it."""

@@ -37,6 +37,7 @@ class Look:
         foggy: it fades into the water with distance.
         both_sides: it can be seen from its back, too.
         yielding: where it coincides with something else, that is seen in its place.
+        on_top: it is seen through everything that is before it.
     """
 
     opacity: float = 1.0
@@ -45,6 +46,7 @@ class Look:
     foggy: bool = True
     both_sides: bool = False
     yielding: bool = False
+    on_top: bool = False
 
     def material(self) -> Json:
         """As a three.js material that takes its colours from the vertices."""
@@ -61,6 +63,8 @@ class Look:
             material["specular"] = 0x333333 if self.shininess else 0x000000
         if self.both_sides:
             material["side"] = DOUBLE_SIDED
+        if self.on_top:
+            material |= {"depthTest": False, "transparent": True}  # what is transparent is drawn last
         if self.yielding:
             material |= {"polygonOffset": True, "polygonOffsetFactor": 2.0, "polygonOffsetUnits": 8.0}
         return material
@@ -79,10 +83,12 @@ class Painted:
     color: int
 
 
-def painted_surface(path: str, parts: Sequence[Painted], look: Look) -> Json:
-    """One surface of several painted meshes: a single object is drawn much faster than many."""
+def painted_surface(
+    path: str, parts: Sequence[Painted], look: Look, user_data: Mapping[str, Any] | None = None
+) -> Json:
+    """One surface of several painted meshes: a single object is drawn much faster than many; see `surface`."""
     colors = [np.tile(rgb(part.color), (len(part.mesh.vertices), 1)) for part in parts]
-    return surface(path, joined([part.mesh for part in parts]), np.vstack(colors), look)
+    return surface(path, joined([part.mesh for part in parts]), np.vstack(colors), look, user_data)
 
 
 def surface(
@@ -103,13 +109,16 @@ def surface(
     """
     geometry = _geometry(position=mesh.vertices, normal=mesh.normals, color=colors)
     geometry["data"]["index"] = _typed_array(mesh.triangles, np.uint32)
-    return _object(path, "Mesh", geometry, look.material(), user_data)
+    drawn = _object(path, "Mesh", geometry, look.material(), user_data)
+    if look.on_top:
+        drawn["object"]["renderOrder"] = 1
+    return drawn
 
 
-def polyline(path: str, points: FloatArray, color: int) -> Json:
-    """A line, one pixel wide, through points of shape (n, 3) [m]."""
+def polyline(path: str, points: FloatArray, color: int, user_data: Mapping[str, Any] | None = None) -> Json:
+    """A line, one pixel wide, through points of shape (n, 3) [m], with data for the page to read."""
     material = {"type": "LineBasicMaterial", "color": color, "fog": False}
-    return _object(path, "Line", _geometry(position=points), material)
+    return _object(path, "Line", _geometry(position=points), material, user_data)
 
 
 def point_cloud(path: str, points: FloatArray, color: int, size: float) -> Json:

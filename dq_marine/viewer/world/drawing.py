@@ -6,10 +6,12 @@ Everything hangs under `/world`, whose frame is NED:
 |---|---|
 | `/world/vehicle/...` | the vehicle, part by part |
 | `/world/goal/ghost`, `/world/goal/ball` | the pose to reach; a ball where any attitude will do |
-| `/world/thrust`, `/world/current/...` | arrows of the applied force and of the water's motion |
+| `/world/thrust/...`, `/world/current/...` | arrows of the forces that are applied, and of the water's motion |
 | `/world/trail` | past positions |
 | `/world/floor/...`, `/world/surface`, `/world/specks`, `/world/shadow` | the sea |
+| `/world/wake` | foam behind a vessel that floats |
 | `/world/things/...` | what is around the vehicle: pillars, vessels, docks, pipes |
+| `/world/dials/...` | nothing to see: numbers for the page's legend (`world/dials.py`) |
 | `/world/clock` | nothing to see: its x is the simulated time [s], which the page displays |
 """
 
@@ -37,13 +39,9 @@ from dq_marine.viewer.placement import (
 )
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
 from dq_marine.viewer.transport.messages import Message
-from dq_marine.viewer.world.arrows import (
-    THRUST,
-    current_placements,
-    draw_arrows,
-    thrust_placement,
-)
+from dq_marine.viewer.world.arrows import Arrows
 from dq_marine.viewer.world.camera import LEASH_IN_LENGTHS, LeashedView, place_camera
+from dq_marine.viewer.world.dials import dial_placements
 from dq_marine.viewer.world.sea import (
     FLOOR,
     SHADOW,
@@ -58,6 +56,7 @@ from dq_marine.viewer.world.sea import (
     nearest_period,
 )
 from dq_marine.viewer.world.things import Things
+from dq_marine.viewer.world.wake import draw_wake
 from dq_marine.viewer.world.water import draw_water, surroundings_of
 
 WORLD = "/world"
@@ -89,6 +88,7 @@ class Drawing:
         self._given_floor_depth = floor_depth
         self._floor_depth: float | None = None
         self._things = Things()
+        self._arrows = Arrows(shape)
         self._sea: tuple[Sea | None, float] = (None, 0.0)
 
     def restart(self) -> list[Message]:
@@ -106,15 +106,20 @@ class Drawing:
             *draw_surface(scale, surroundings),
             *(draw_specks(scale) if surroundings.specks else ()),
             *draw_shadow(self._shape),
+            *draw_wake(self._shape),
             *draw_vehicle(self._shape),
             *draw_goal(self._shape),
-            *draw_arrows(),
+            *self._arrows.scenery(),
             *place_camera(first, self._shape, scale.sight),
         ]
 
     def appear(self, snapshot: Snapshot) -> list[Message]:
-        """Draw what is around the vehicle at a snapshot and has not been drawn; before its placements."""
-        return [*self._new_sea(snapshot), *self._things.appear(snapshot)]
+        """Draw what a snapshot has and has not been drawn; before its placements."""
+        return [
+            *self._new_sea(snapshot),
+            *self._things.appear(snapshot),
+            *self._arrows.appear(snapshot),
+        ]
 
     def _new_sea(self, snapshot: Snapshot) -> list[Message]:
         """Draw the surface, where the sea is not the one that has been drawn."""
@@ -132,14 +137,15 @@ class Drawing:
         anchor = self._view.follow(position)
         north, east, down = vector3(anchor)
         pose = Placement(vector3(position), quaternion_wxyz(snapshot.quaternion_body_to_ned))
+        body_to_ned = pose.rotation_matrix()
         return {
             CLOCK: Placement((snapshot.time, 0.0, 0.0)),  # first: by it the live page knows what may glide
             WORLD: Placement((-north, east, down), NED_TO_Z_UP),
             VEHICLE: pose,
-            THRUST: thrust_placement(snapshot, self._shape, pose.rotation_matrix()),
             **_goal_placements(snapshot),
             **self._things.placements(snapshot),
-            **current_placements(snapshot, self._shape),
+            **self._arrows.placements(snapshot, body_to_ned),
+            **dial_placements(snapshot, body_to_ned),
             **self._sea_placements(snapshot, anchor),
         }
 

@@ -50,7 +50,7 @@ class Stage:
             self.restart()
         for message in self._drawing.appear(snapshot):
             self._server.send(message)
-        if self._trail.extend(snapshot.position_ned):
+        if self._trail.extend(snapshot.position_ned, snapshot.time):
             self._server.send(self._trail.message())
         for path, placement in self._drawing.placements(snapshot).items():
             if self._placed.get(path) != placement:

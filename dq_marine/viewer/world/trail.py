@@ -8,7 +8,7 @@ import numpy as np
 
 from dq_marine.viewer.snapshot import FloatArray
 from dq_marine.viewer.transport.messages import Message, set_object
-from dq_marine.viewer.transport.three_json import polyline
+from dq_marine.viewer.transport.three_json import packed_floats, polyline
 
 TRAIL = "/world/trail"
 TRAIL_YELLOW = 0xFFE66D
@@ -28,23 +28,26 @@ class Trail:
         """
         self._spacing = spacing
         self._positions: deque[FloatArray] = deque(maxlen=LONGEST)
+        self._times: deque[float] = deque(maxlen=LONGEST)
 
     def restart(self) -> None:
         """Forget everything."""
         self._positions.clear()
+        self._times.clear()
 
-    def extend(self, position_ned: FloatArray) -> bool:
-        """Remember a position [m]; False if it was too close to the last one."""
+    def extend(self, position_ned: FloatArray, time: float) -> bool:
+        """Remember a position [m] and its time [s]; False if it was too close to the last one."""
         if self._positions and np.linalg.norm(position_ned - self._positions[-1]) < self._spacing:
             return False
         self._positions.append(position_ned)
+        self._times.append(time)
         return True
 
     def message(self) -> Message:
         """Draw the trail as it is now."""
-        return draw_trail(np.array(self._positions))
+        return draw_trail(np.array(self._positions), np.array(self._times))
 
 
-def draw_trail(positions_ned: FloatArray) -> Message:
-    """Draw a line through positions, shape (n, 3) [m]."""
-    return set_object(TRAIL, polyline(TRAIL, positions_ned, TRAIL_YELLOW))
+def draw_trail(positions_ned: FloatArray, times: FloatArray) -> Message:
+    """Draw a line through positions, shape (n, 3) [m], and tell the page their times, shape (n,) [s]."""
+    return set_object(TRAIL, polyline(TRAIL, positions_ned, TRAIL_YELLOW, {"times": packed_floats(times)}))

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rich.console import Console
+from support.sweeps import sweep
 from support.trainings import preset, tiny
 from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
 
@@ -104,7 +105,9 @@ def killed_after_first_checkpoint(tmp_path: Path, algorithm: str, folder: RunFol
     assert process.returncode == -signal.SIGKILL
 
 
-@pytest.mark.parametrize(("algorithm", "timesteps"), [("ppo", 1024), ("sac", 1024)])
+@pytest.mark.parametrize(
+    ("algorithm", "timesteps"), sweep([("ppo", 1024), ("sac", 1024)], plain=[("ppo", 1024)])
+)
 def test_a_killed_run_is_resumed_to_the_same_total(
     tmp_path: Path, algorithm: str, timesteps: int, console: Console
 ) -> None:

@@ -51,6 +51,7 @@ def test_a_vessel_that_drifts_stays_afloat_to_the_end_of_an_episode():
     assert env.position_ned[2] == pytest.approx(0.04, abs=0.01)
 
 
+@pytest.mark.sweep  # boxes and scenes capsize in tests/physics/hydrostatics
 def test_a_vessel_may_capsize_in_an_environment():
     """By its two hulls it floats upside down as well."""
     env = StationKeepingEnv("otter", hydrostatics="hull", current=(0.0, 0.0, 0.0))

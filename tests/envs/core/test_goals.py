@@ -70,6 +70,7 @@ def test_the_reward_at_the_own_goal_is_the_steps_own(example):
     assert there == pytest.approx([float(info["reward/effort"]) for info in infos])
 
 
+@pytest.mark.sweep  # tests/envs/vector has those without goals
 def test_lanes_have_the_bits_of_single_environments(example):
     n = 3
     envs = MarineVectorEnv(example.ID, n, max_episode_steps=10, autoreset_mode=AutoresetMode.SAME_STEP)

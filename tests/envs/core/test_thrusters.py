@@ -63,7 +63,16 @@ def test_an_episode_is_a_body_under_its_commands():
         assert np.array_equal(env.get_state()["state"], body.get_state()[1:15])
         assert env.get_state()["memory"][-len(low) :] == pytest.approx(body.actuator_values, rel=1e-14)
     expected = actuator_wrench(env.vehicle, body.actuator_values, body.relative_velocity_body)
-    assert env.snapshot().wrench_body == pytest.approx(expected, rel=1e-9)
+    shown = env.snapshot()
+    assert shown.wrench_body == pytest.approx(expected, rel=1e-9)
+    places, forces = np.array(
+        [(thrust.position_body, thrust.force_body) for thrust in shown.thrusts]
+    ).swapaxes(0, 1)
+    assert len(forces) == 6
+    assert forces.sum(axis=0) == pytest.approx(expected[:3], rel=1e-9)
+    torque = -0.08 * forces[0]  # of the one propeller that has one
+    moment = np.cross(places, forces).sum(axis=0) + torque
+    assert moment == pytest.approx(expected[3:], rel=1e-9)
 
 
 def test_lags_are_part_of_the_state_and_gone_after_reset():
@@ -99,6 +108,7 @@ def test_effort_is_the_mean_square_of_all_channels():
     assert env.step(action)[1] == pytest.approx(-float(np.mean(action.astype(float) ** 2)), rel=1e-12)
 
 
+@pytest.mark.sweep  # tests/agents/training has those that are moved by wrenches
 def test_the_learning_librarys_environments_are_the_same():
     from stable_baselines3.common.vec_env import DummyVecEnv
 

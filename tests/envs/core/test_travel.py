@@ -86,7 +86,8 @@ def test_workers_of_gymnasium_give_the_same_bits(context, keywords):
         there.close()
 
 
-@pytest.mark.parametrize("method", sweep(["fork", "spawn"], plain=["spawn"]))
+@pytest.mark.sweep  # those of Gymnasium do in a plain run
+@pytest.mark.parametrize("method", ["fork", "spawn"])
 def test_workers_of_stable_baselines3_give_the_same_bits(method):
     vec_env = pytest.importorskip("stable_baselines3.common.vec_env")
     make = maker(STATION_KEEPING, "wrenches", 0)

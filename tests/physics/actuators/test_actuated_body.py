@@ -227,6 +227,7 @@ def test_a_batch_has_the_bits_of_single_bodies():
     assert np.array_equal(batch.get_state(), other.get_state())
 
 
+@pytest.mark.sweep  # a batch of equal ones has the bits of single bodies
 def test_a_batch_of_different_actuators():
     """Time constants and gains of their own in every lane."""
     vehicles = [twin_screw(time_constant=0.05 * i, gain_forward=0.01 * i) for i in (1, 2, 3)]

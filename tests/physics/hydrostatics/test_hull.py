@@ -10,7 +10,6 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from support.barges import DENSITY, GRAVITY, HEIGHT, LENGTH, WIDTH, barge, clipped
 from support.bodies import random_quaternion
-from support.sweeps import sweep
 
 from dq_marine.algebra.dual_quaternion import pose_from_parts
 from dq_marine.errors import InvalidInputError
@@ -253,9 +252,9 @@ def test_equal_boxes_share_their_code_and_a_scene_without_hull_has_none():
     assert not any("hull" in term for term in Scene("otter").terms)
 
 
+@pytest.mark.sweep  # tests/simulation has them without a hull
 @pytest.mark.parametrize(
-    ("precision", "arithmetic", "tolerance"),
-    sweep([("float64", "fast", 1e-10), ("float32", "strict", 1e-4)], plain=[("float64", "fast", 1e-10)]),
+    ("precision", "arithmetic", "tolerance"), [("float64", "fast", 1e-10), ("float32", "strict", 1e-4)]
 )
 def test_single_precision_and_fast_arithmetic_are_near(precision, arithmetic, tolerance):
     """Some steps of a box that heels and bobs, before its motion tells roundings apart."""

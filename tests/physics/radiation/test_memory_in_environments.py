@@ -34,6 +34,7 @@ def test_an_episode_goes_on_where_it_was_saved():
     assert StationKeepingEnv(settings=Settings.from_json(env.settings.to_json())).scene.radiation == "memory"
 
 
+@pytest.mark.sweep  # tests/physics/radiation has bodies in lanes
 @pytest.mark.slow
 def test_environments_in_lanes_have_the_bits_of_single_ones():
     many = StationKeepingVectorEnv(3, **KEYWORDS)

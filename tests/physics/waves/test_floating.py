@@ -196,6 +196,7 @@ def test_a_hull_in_a_regular_sea_moves_as_the_linear_equations_say():
     )  # 1 % is the series in the heading
 
 
+@pytest.mark.sweep  # tests/physics/hydrostatics/test_hull.py has boxes in lanes
 def test_hulls_in_lanes_have_the_bits_of_a_single_one():
     """In all that weather can do to them: waves from all sides, their slow drift, and gusts."""
     sea = Sea(Jonswap(0.5, 4.0), components=5, spreading=1.0)

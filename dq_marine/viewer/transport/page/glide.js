@@ -4,13 +4,16 @@
 
 const glide = (() => {
   const CLOCK = "/world/clock";
-  const GLIDING = ["/world", "/world/vehicle", "/world/thrust", "/world/shadow", CLOCK];
+  const GLIDING = ["/world", "/world/vehicle", "/world/shadow", CLOCK], GLIDING_CHILDREN = "/world/thrust";
   const LONGEST = 2000, AFTER_A_PAUSE = 150;  // milliseconds from one message to the next
   const find = (path) => viewer.scene_tree.find(path.slice(1).split("/"));
 
   let told_at = -Infinity, last_time = Infinity, length = 0, jumping = true;
   const moving = new Map();  // by node: where it came from, and where it goes
 
+  const glides = (node) => (
+    GLIDING.some((path) => node === find(path)) || Object.values(find(GLIDING_CHILDREN).children).includes(node)
+  );
   const node_class = Object.getPrototypeOf(viewer.scene_tree);
   const set_at_once = node_class.set_transform;
   node_class.set_transform = function (matrix) {
@@ -22,7 +25,8 @@ const glide = (() => {
     moving.delete(this);
     set_at_once.call(this, matrix);
     const shown = from.scale.x > 0 && object.scale.x > 0;
-    if (!jumping && shown && GLIDING.some((path) => this === find(path))) {
+    const reversed = from.quaternion.angleTo(object.quaternion) > Math.PI / 2;  // as the arrow of a thruster may be
+    if (!jumping && shown && !reversed && glides(this)) {
       const to = {position: object.position.clone(), quaternion: object.quaternion.clone(), scale: object.scale.clone()};
       moving.set(this, {from, to, began: told_at});
       place(this, 0);

@@ -232,7 +232,8 @@ const panel = (() => {
     pen.lineWidth = 2;
     pen.beginPath();
     numbers.forEach((number, i) => {
-      pen.lineTo(width * i / Math.max(numbers.length - 1, 1), 2 + (height - 4) * (1 - (number - low) / span));
+      const turned = history.unit === "deg" && Math.abs(number - numbers[i - 1]) > 180;  // an angle that went round
+      pen[turned ? "moveTo" : "lineTo"](width * i / Math.max(numbers.length - 1, 1), 2 + (height - 4) * (1 - (number - low) / span));
     });
     pen.stroke();
   }

@@ -7,7 +7,7 @@
 // of which a point leaves out the waves that are too short for the mesh around it. Slopes make it lighter and darker.
 "use strict";
 
-(() => {
+const sea = (() => {
   const RESOLVED = 1.6;  // radians of a wave from one point to the next, at most
   const LIGHT = [-0.5, -0.6];  // where slopes are lighter: towards the sun, north and east
   const CONTRAST = 0.55;
@@ -68,6 +68,32 @@
     position.needsUpdate = color.needsUpdate = true;
   }
 
+  function place_among(tick) {  // the point of the mesh before it, and the share of the way to the next one
+    let low = 0, high = ticks.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (ticks[middle] <= tick) { low = middle; } else { high = middle; }
+    }
+    return [low, (tick - ticks[low]) / (ticks[high] - ticks[low])];
+  }
+
+  function height_at(north, east) {  // of the surface as it is drawn
+    const node = part("surface");
+    if (!mesh || node.children[0] !== mesh) { return 0; }
+    const [column, x] = place_among(north - node.position.x), [row, y] = place_among(east - node.position.y);
+    if (x < 0 || x > 1 || y < 0 || y > 1) { return 0; }
+    const down = mesh.geometry.attributes.position, first = row * ticks.length + column, next = first + ticks.length;
+    const near = (1 - x) * down.getZ(first) + x * down.getZ(first + 1);
+    const far = (1 - x) * down.getZ(next) + x * down.getZ(next + 1);
+    return -((1 - y) * near + y * far);
+  }
+
+  const before_picture = [];  // what has to be done once the surface is raised
   const render = viewer.render.bind(viewer);
-  viewer.render = () => { raise(); render(); };
+  viewer.render = () => {
+    raise();
+    for (const act of before_picture) { act(); }
+    render();
+  };
+  return {height_at, before_picture};
 })();
