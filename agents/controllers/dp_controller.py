@@ -106,6 +106,9 @@ class DPController:
     brings z nearer to zero and never past it: a goal that is far away would else leave an integral against it behind.
 
     An axis without actuator is left alone; the task may then be beyond the vehicle.
+
+    Attributes:
+        settings: where the poles go, of vehicles whose actuators are strong enough.
     """
 
     READS: ClassVar[tuple[str, ...]] = GOAL_POSE
@@ -131,8 +134,8 @@ class DPController:
             InvalidInputError: the poles are too fast for the control period, or a value is wrong.
             MissingDependencyError: thrusters are to be driven, and SciPy is not installed.
         """
-        preset = settings or read_settings("dp_controller", ControllerSettings)
-        chosen = within_authority(preset, vehicle)
+        self.settings = settings or read_settings("dp_controller", ControllerSettings)
+        chosen = within_authority(self.settings, vehicle)
         self.vehicle = vehicle
         self.control_period = control_period
         self._read = read

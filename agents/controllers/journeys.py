@@ -43,9 +43,14 @@ class Journey:
         self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
 
     @classmethod
-    def for_env(cls, env: gym.Env[Any, Any]) -> Self:
-        """Return the controller for an environment's vehicle."""
-        return cls(env)
+    def for_env(cls, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> Self:
+        """Return the controller for an environment's vehicle; None reads the preset `autopilot`."""
+        return cls(env, settings)
+
+    @property
+    def settings(self) -> AutopilotSettings:
+        """What guidance and autopilot were made with."""
+        return self._settings
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Self
 
 import gymnasium as gym
 import numpy as np
@@ -37,6 +37,11 @@ class GroundJourney(Journey):
         self._ground = Ground(
             self._over_ground.width * self._altitude, self._over_ground.behind * self._altitude
         )
+
+    @classmethod
+    def for_env(cls, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> Self:
+        """Return the controller for an environment's vehicle; None reads the preset `autopilot`."""
+        return cls(env, autopilot=settings)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""

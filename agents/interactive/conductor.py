@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+from contextlib import suppress
 from typing import Any
 
 import gymnasium as gym
@@ -16,6 +18,7 @@ from dq_marine.agents.evaluation.episodes import FlightEndedError
 from dq_marine.agents.interactive.controls import (
     AGENT,
     CURRENT,
+    GOAL,
     HOLD,
     POWER,
     QUIT,
@@ -25,17 +28,21 @@ from dq_marine.agents.interactive.controls import (
     flight_controls,
     stick_positions,
 )
+from dq_marine.agents.interactive.gains import Gains
 from dq_marine.agents.interactive.helm import Helm
+from dq_marine.agents.interactive.next_episode import NextEpisode
 from dq_marine.agents.interactive.readings import readings
 from dq_marine.envs.core.marine_env import Action, MarineEnv
+from dq_marine.envs.core.moved_goal import move_goal
 from dq_marine.envs.core.observation import Observation
+from dq_marine.envs.core.view import shape_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.viewer.controls import LEFT, Event
 from dq_marine.viewer.live import LiveViewer
 from dq_marine.viewer.playback import PLAYING, STEP, Playback
 
-HELM = "helm"
-"""What the helm is called among the agents."""
+LOOKED_EVERY = 0.2
+"""Time on the wall between looks at the page while something else is waited for [s]."""
 
 DRAWN_EVERY, READ_EVERY = 1.0 / 30.0, 0.1
 """Time on the wall between pictures, and between readings [s]; a fast flight draws less often than it steps."""
@@ -57,6 +64,7 @@ class Conductor:
         helm: Helm,
         *,
         seed: int,
+        next_episode: NextEpisode,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
         """Take who can fly; the first of them does at the beginning.
@@ -66,12 +74,16 @@ class Conductor:
             agents: by name, in the order in which they are offered; the helm among them.
             helm: does what the stick says.
             seed: of the first episode.
+            next_episode: takes what is chosen for it.
             sleep: waits for so many seconds.
         """
         self.seed, self.quitting, self.restarting = seed, False, False
         self._viewer, self._agents, self._helm = viewer, dict(agents), helm
-        self._playback = Playback(sleep=sleep)
+        self._next_episode = next_episode
+        self._playback, self._sleep = Playback(sleep=sleep), sleep
+        self._gains = Gains(self._agents)
         self._chosen = next(iter(self._agents))
+        self._notice = ""
         self._current: tuple[float, float] | None = None
         self._drawn_at = self._read_at = -np.inf
         self._env: MarineEnv | None = None
@@ -81,33 +93,63 @@ class Conductor:
             SEED: self._take_seed,
             AGENT: self._choose,
             STICK: self._move_stick,
-            LEFT: lambda _: self._move_stick(None),
-            POWER: lambda power: setattr(helm, "power", power),
-            HOLD: lambda hold: setattr(helm, "hold", hold and helm.can_hold),
+            LEFT: lambda _: setattr(self._helm, "stick", np.zeros(6)),
+            POWER: lambda power: setattr(self._helm, "power", power),
+            HOLD: lambda hold: setattr(self._helm, "hold", hold and self._helm.can_hold),
+            GOAL: self._move_goal,
             CURRENT[0]: lambda speed: self._turn_current(speed, None),
             CURRENT[1]: lambda bearing: self._turn_current(None, bearing),
         }
 
     def reset(self, env: gym.Env[Any, Any]) -> None:
         """Show the beginning of an episode, and the controls that its environment has."""
-        inner = self._env = marine(env)
+        self._env = marine(env)
         self.restarting, self._current = False, None
         for agent in self._agents.values():
             agent.reset(env)
         self._playback.begin()
         self._viewer.clear_trail()
-        self._viewer.show_controls(
-            flight_controls(
-                inner,
-                tuple(self._agents),
-                self._chosen,
-                seed=self.seed,
-                playback=self._playback,
-                helm=self._helm,
-            )
-        )
-        self._viewer.show_notice("")
+        self._show_controls()
+        self._viewer.show_notice(self._notice)
+        self._notice = ""
         self._show(at_once=True)
+
+    def take_over(self, env: gym.Env[Any, Any], agents: Mapping[str, Agent], helm: Helm) -> None:
+        """Fly another environment from its next reset on; who flew flies on, if that is possible.
+
+        Args:
+            env: the other one.
+            agents: who can fly it, by name, the helm among them.
+            helm: its helm, which is left with what the person set at the one before.
+        """
+        inner = marine(env)
+        helm.power = self._helm.power
+        helm.hold = helm.can_hold and (self._helm.hold or not self._helm.can_hold)
+        self._agents, self._helm = dict(agents), helm
+        self._gains = Gains(self._agents)
+        self._chosen = self._chosen if self._chosen in self._agents else next(iter(self._agents))
+        self._viewer.show_vehicle(shape_of(inner.vehicle), inner.vehicle.name)
+
+    def say_next(self, notice: str) -> None:
+        """Show a notice with the next episode."""
+        self._notice = notice
+
+    def wait_for(self, work: Future[Any], notice: str) -> None:
+        """Return when work that another thread does is done; the page says how long that takes, and is listened to.
+
+        What a person wants meanwhile is done at its end: Quit, or Ctrl-C, a second of which is not waited for.
+        """
+        began = time.monotonic()
+        while not work.done():
+            try:
+                self._viewer.show_notice(f"{notice} {time.monotonic() - began:.0f} s")
+                with suppress(FlightEndedError):
+                    self._hear()
+                self._sleep(LOOKED_EVERY)
+            except KeyboardInterrupt:
+                if self.quitting:
+                    raise
+                self.quitting = True
 
     def act(self, observation: Observation) -> Action:
         """Return the chosen agent's action, once the person lets the flight go on.
@@ -135,6 +177,11 @@ class Conductor:
         return not self.quitting
 
     @property
+    def flown_by(self) -> str:
+        """Name of the agent that flies now."""
+        return self._chosen
+
+    @property
     def _flying(self) -> MarineEnv:
         """The environment of the episode under way."""
         if self._env is None:
@@ -154,6 +201,10 @@ class Conductor:
             self._playback.take(event)
             if event.name in self._does:
                 self._does[event.name](event.value)
+            elif self._next_episode.take(event):
+                self._show_controls()
+            else:
+                self._tune(event)
         if any(event.name == STEP for event in events):
             self._viewer.show_values({PLAYING: False})
         if self.restarting or self.quitting:
@@ -172,8 +223,22 @@ class Conductor:
         self._chosen = name
         self._agents[name].reset(self._flying)
 
-    def _move_stick(self, positions: tuple[float, ...] | None) -> None:
+    def _move_stick(self, positions: tuple[float, ...]) -> None:
         self._helm.stick = stick_positions(self._flying, positions)
+
+    def _tune(self, event: Event) -> None:
+        try:
+            self._gains.take(event, self._flying)
+        except InvalidInputError as error:
+            self._viewer.show_notice(str(error))
+            self._viewer.show_values({event.name: self._gains.value(event.name)})
+
+    def _move_goal(self, position_ned: tuple[float, float, float]) -> None:
+        try:
+            move_goal(self._flying, position_ned)
+        except InvalidInputError as error:
+            self._viewer.show_notice(str(error))
+        self._show(at_once=not self._playback.playing)
 
     def _turn_current(self, speed: float | None, bearing: float | None) -> None:
         env = self._flying
@@ -193,6 +258,17 @@ class Conductor:
             self._viewer.show_notice(str(error))
 
     # What a person sees
+
+    def _show_controls(self) -> None:
+        groups = flight_controls(
+            self._flying,
+            tuple(self._agents),
+            self._chosen,
+            seed=self.seed,
+            playback=self._playback,
+            helm=self._helm,
+        )
+        self._viewer.show_controls((*groups, *self._next_episode.groups(), *self._gains.groups()))
 
     def _show(self, *, at_once: bool) -> None:
         env, now = self._flying, time.monotonic()

@@ -9,9 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.envs.core.marine_env import MarineEnv
+from dq_marine.envs.core.places import highest_goal
+from dq_marine.envs.core.start import GOAL_POSITION
 from dq_marine.physics.current.formulas.uniform import MOVING_WATER
 from dq_marine.vehicles.model import MOTIONS
-from dq_marine.viewer.controls import Axis, Button, Choice, Control, Group, Number, Slider, Stick, Switch
+from dq_marine.viewer.controls import (
+    Axis,
+    Button,
+    Choice,
+    Control,
+    Group,
+    Number,
+    Place,
+    Slider,
+    Stick,
+    Switch,
+)
+from dq_marine.viewer.models.vehicle_model import GOAL_GHOST
 from dq_marine.viewer.playback import Playback
 
 if TYPE_CHECKING:
@@ -19,12 +33,19 @@ if TYPE_CHECKING:
 
 RESET, QUIT, SEED, AGENT = "reset", "quit", "seed", "agent"
 STICK, POWER, HOLD = "stick", "power", "hold"
+GOAL = "goal"
 CURRENT = ("current_speed", "current_bearing")
 """Names of the controls."""
 
 LARGEST_SEED = 2**31 - 1
 FASTEST_CURRENT = 1.5
 """That the slider goes to [m/s]."""
+
+GOAL_REACH = 0.5
+"""How far its sliders move a goal along an axis, over the radius of the task's workspace, beyond which episodes end."""
+
+GOAL_REACH_IN_LENGTHS = 10.0
+"""The same for tasks without a workspace, in vehicle lengths."""
 
 HANDS = {
     "surge": Axis("astern, ahead", "KeyS", "KeyW", (3, -1)),
@@ -78,7 +99,32 @@ def flight_controls(
             Slider(CURRENT[1], "flows towards", 0.0, 360.0, bearing, 1.0, "deg"),
         )
         groups.append(Group("Water", water))
-    return tuple(groups)
+    return (*groups, *_goal_group(env))
+
+
+def _goal_group(env: MarineEnv) -> tuple[Group, ...]:
+    """Return the controls of a goal that can be moved; none where there is no such goal."""
+    goal = env.snapshot().goal_position_ned
+    if goal is None or GOAL_POSITION not in env.definition.options:
+        return ()
+    radius = getattr(env, "workspace_radius", None)
+    lengths = GOAL_REACH_IN_LENGTHS * env.vehicle.dimensions.length
+    reach = lengths if radius is None else GOAL_REACH * radius
+    north, east, down = goal.tolist()
+    floats = env.vehicle.hydrostatics is not None
+    highest = down if floats else min(down, max(highest_goal(env.vehicle), down - reach))
+    lowest = down if floats else down + reach
+    place = Place(
+        GOAL,
+        "goal",
+        ("north", "east", "depth"),
+        (north - reach, east - reach, highest),
+        (north + reach, east + reach, lowest),
+        (north, east, down),
+        0.01,
+        thing=GOAL_GHOST,
+    )
+    return (Group("Goal", (place,), note="Or drag it in the scene; with Shift up and down."),)
 
 
 def driven(env: MarineEnv) -> NDArray[np.intp]:
@@ -86,9 +132,8 @@ def driven(env: MarineEnv) -> NDArray[np.intp]:
     return np.flatnonzero(env.vehicle.wrench_limits)
 
 
-def stick_positions(env: MarineEnv, positions: tuple[float, ...] | None) -> NDArray[np.float64]:
-    """Return the positions of the stick's axes in Fossen's order, shape (6,); None lets go of all."""
+def stick_positions(env: MarineEnv, positions: tuple[float, ...]) -> NDArray[np.float64]:
+    """Return the positions of the stick's axes in Fossen's order, shape (6,)."""
     stick = np.zeros(6)
-    if positions is not None:
-        stick[driven(env)] = positions
+    stick[driven(env)] = positions
     return stick

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -29,6 +30,7 @@ SECONDS, SECONDS_WITH_PANEL = 30.0, 3600.0
 
 EXAMPLES = examples(
     "dq-marine fly --teleop --current 0.3",
+    "dq-marine fly --teleop --record flights --html last.html",
     "dq-marine fly --panel --task PathFollowing --vehicle remus100",
     "dq-marine fly --live --start-distance 2",
     "dq-marine fly --scenario StationKeeping/cross_current --live",
@@ -71,6 +73,13 @@ def fly(
         typer.Option(
             "--trajectory",
             help="Write time, pose, velocity, actions, reward and metrics into this file (.csv, .parquet).",
+        ),
+    ] = None,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            "--record",
+            help="With --teleop or --panel: keep all that is flown as Minari datasets in this folder.",
         ),
     ] = None,
     live: Annotated[
@@ -144,6 +153,11 @@ def fly(
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
     begun = None if scenario is None else load_scenario(scenario, task=task)
     environment = requested_environment(runs, options, preset=preset, scenario=begun)
+    if record is not None and not (panel or teleop):
+        raise InvalidInputError(
+            f"--record {record} keeps what is flown in a live page with a panel; add --teleop or --panel, or give "
+            "--trajectory for other flights"
+        )
     if only_print:
         print_preset(environment, "environment")
         return
@@ -162,13 +176,20 @@ def fly(
         plan = FlightPlan(environment, seconds, seed, start_distance)
     else:
         plan = FlightPlan(environment, seconds, begun.seed if seed is None else seed, start=begun.reset)
+    recorded: dict[str, int] = {}
     with shown_part("Drawing the video") as progress:
         files = Outputs(html=html, plot=plot, trajectory=trajectory, mp4=mp4, fps=fps, progress=progress)
         if panel or teleop:
-            from dq_marine.agents.interactive.flying import fly_interactively, offered_agents
+            from dq_marine.agents.interactive.flights import offered_agents
+            from dq_marine.agents.interactive.flying import fly_interactively
+            from dq_marine.agents.interactive.recording import Recorder
 
             offer = partial(offered_agents, baselines=baselines, runs=runs, seed=plan.seed or 0)
-            episode = fly_interactively(plan, offer, files, title=title, teleoperated=teleop)
+            with nullcontext() if record is None else Recorder(record) as recorder:
+                episode = fly_interactively(
+                    plan, offer, files, title=title, teleoperated=teleop, recorder=recorder
+                )
+            recorded = {} if recorder is None else recorder.written
         else:
             episode = fly_once(
                 plan,
@@ -181,3 +202,5 @@ def fly(
         console.print(note, highlight=False, markup=False)
     for path in files.files:
         console.print(f"Wrote {path}", soft_wrap=True)
+    for identifier, episodes in recorded.items():
+        console.print(f"Wrote {record}: dataset {identifier}, episodes: {episodes}", soft_wrap=True)

@@ -171,15 +171,53 @@ class Stick:
         return tuple(min(max(_number(one), -1.0), 1.0) for one in value)
 
 
-Control = Button | Switch | Choice | Slider | Number | Stick
+@dataclass(frozen=True)
+class Place:
+    """A position in the scene, by a slider for each coordinate or by dragging a thing; the event's value is all three.
+
+    Attributes:
+        axes: what the coordinates are called, in the world's order: north, east and down.
+        least: the smallest of each [m].
+        most: the largest of each [m].
+        value: at first [m].
+        step: between values that can be chosen [m].
+        thing: path of what can be dragged in the scene; "" for nothing.
+    """
+
+    kind: ClassVar[str] = "place"
+    name: str
+    label: str
+    axes: tuple[str, str, str]
+    least: tuple[float, float, float]
+    most: tuple[float, float, float]
+    value: tuple[float, float, float]
+    step: float
+    thing: str = ""
+
+    def read(self, value: Any) -> Any:
+        """Return three numbers within the bounds; `ValueError` if they are not numbers, or not so many."""
+        if not isinstance(value, list) or len(value) != len(self.axes):
+            raise ValueError
+        bounds = zip(map(_number, value), self.least, self.most, strict=True)
+        return tuple(min(max(one, least), most) for one, least, most in bounds)
+
+
+Control = Button | Switch | Choice | Slider | Number | Stick | Place
 
 
 @dataclass(frozen=True)
 class Group:
-    """Controls that stand together under a heading."""
+    """Controls that stand together under a heading.
+
+    Attributes:
+        note: a sentence for the person, between heading and controls; "" for none.
+        opened: whether the controls are shown at first, and not the heading alone.
+    """
 
     label: str
     controls: tuple[Control, ...]
+    note: str = ""
+    opened: bool = True
 
 
 class Panel:
@@ -205,6 +243,8 @@ class Panel:
         return [
             {
                 "label": group.label,
+                "note": group.note,
+                "opened": group.opened,
                 "controls": [{"kind": control.kind, **asdict(control)} for control in group.controls],
             }
             for group in self.groups

@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 from dq_marine.viewer.controls import Event, Group, Panel
 from dq_marine.viewer.snapshot import Shape, Snapshot
 from dq_marine.viewer.transport.closable import Closable
-from dq_marine.viewer.transport.messages import show_panel
+from dq_marine.viewer.transport.messages import delete, show_panel
 from dq_marine.viewer.transport.server_process import ServerProcess
-from dq_marine.viewer.world.drawing import checked_floor_depth
+from dq_marine.viewer.world.drawing import WORLD, checked_floor_depth
 from dq_marine.viewer.world.stage import Stage
 
 
@@ -55,9 +55,9 @@ class LiveViewer(Closable):
             InvalidInputError: `floor_depth` is not a finite number above 0.
             ViewerError: the server did not start.
         """
-        floor_depth = checked_floor_depth(floor_depth)
+        self._floor_depth = checked_floor_depth(floor_depth)
         self._server = ServerProcess()
-        self._stage = Stage(self._server, shape, floor_depth)
+        self._stage = Stage(self._server, shape, self._floor_depth)
         self._panel = Panel(())
         if title:
             self._server.send(show_panel("title", {"text": title}))
@@ -76,6 +76,16 @@ class LiveViewer(Closable):
             ViewerError: the viewer is closed, or its server has gone.
         """
         self._stage.draw(snapshot)
+
+    def show_vehicle(self, shape: Shape, title: str) -> None:
+        """Draw another vehicle from now on, and its surroundings anew; the panel stays.
+
+        Raises:
+            ViewerError: the viewer is closed, or its server has gone.
+        """
+        self._server.send(delete(WORLD))
+        self._stage = Stage(self._server, shape, self._floor_depth)
+        self._server.send(show_panel("title", {"text": title}))
 
     def show_controls(self, groups: Sequence[Group]) -> None:
         """Put controls on the pages' panels, in place of those that were there; `events` tells what is done with them.

@@ -20,6 +20,7 @@ from dq_marine.viewer.controls import (
     Group,
     Number,
     Panel,
+    Place,
     Slider,
     Stick,
     Switch,
@@ -32,6 +33,7 @@ CONTROLS = (
     Slider("speed", "speed", 0.5, 2.0, 1.0, 0.1, "x"),
     Number("seed", "seed", 0, 100, 3),
     Stick("stick", "stick", (Axis("a", "KeyA", "KeyD"), Axis("b", "KeyS", "KeyW", (1, -1)))),
+    Place("goal", "goal", ("n", "e", "d"), (-1.0, -2.0, 0.0), (1.0, 2.0, 9.0), (0.0, 0.0, 5.0), 0.01),
 )
 PANEL = Panel([Group("all", CONTROLS)])
 
@@ -53,6 +55,7 @@ def read(name: str, value: Any) -> list[Event]:
         ("seed", 12.0, 12),
         ("seed", 1e9, 100),
         ("stick", [0.5, -3], (0.5, -1.0)),
+        ("goal", [0.5, -3, 4], (0.5, -2.0, 4.0)),
     ],
 )
 def test_values_are_taken_within_their_bounds(name: str, value: Any, taken: Any) -> None:
@@ -74,6 +77,9 @@ def test_values_are_taken_within_their_bounds(name: str, value: Any, taken: Any)
         ("stick", [0.0]),
         ("stick", [0.0, "x"]),
         ("stick", 0.0),
+        ("goal", [0.0, 0.0]),
+        ("goal", [0.0, 0.0, "x"]),
+        ("goal", None),
     ],
 )
 def test_what_means_nothing_is_passed_over(name: str, value: Any) -> None:
@@ -100,6 +106,9 @@ def test_no_value_of_a_page_gets_past_the_bounds(name: str, value: Any) -> None:
                 assert control.least <= event.value <= control.most
             case Stick():
                 assert all(-1.0 <= position <= 1.0 for position in event.value)
+            case Place():
+                within = zip(control.least, event.value, control.most, strict=True)
+                assert all(least <= one <= most for least, one, most in within)
 
 
 def test_a_page_that_leaves_is_an_event_in_its_place() -> None:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from viewer.devtools import Page, open_page
@@ -19,6 +22,7 @@ from dq_marine.viewer.controls import (
     Choice,
     Group,
     Number,
+    Place,
     Slider,
     Stick,
     Switch,
@@ -28,6 +32,7 @@ from dq_marine.viewer.live import Reading
 pytestmark = pytest.mark.browser
 
 PATIENCE = 60.0
+LONGER = replace(ROV, length=3.0 * ROV.length)
 GROUPS = (
     Group(
         "Flight",
@@ -38,12 +43,23 @@ GROUPS = (
             Slider("speed", "speed", 0.1, 20.0, 1.0, 0.1, "x", logarithmic=True),
             Number("seed", "seed", 0, 1000, 3),
         ),
+        note="What this is about.",
     ),
     Group(
         "Helm",
         (
             Stick(
                 "stick", "helm", (Axis("astern, ahead", "KeyS", "KeyW", (3, -1)), Axis("b", "KeyA", "KeyD"))
+            ),
+            Place(
+                "place",
+                "goal",
+                ("north", "east", "depth"),
+                (-3.0, -3.0, 2.0),
+                (3.0, 3.0, 8.0),
+                (0.0, 0.0, 5.0),
+                0.01,
+                thing="/world/goal/ghost",
             ),
         ),
     ),
@@ -167,6 +183,74 @@ def test_a_stick_by_gamepad(viewer: LiveViewer, page: Page) -> None:
     page.evaluate("navigator.getGamepads = () => []")
 
 
+def test_a_place_by_its_sliders(viewer: LiveViewer, page: Page) -> None:
+    slider = element("control-place-1")
+    page.evaluate(f"{slider}.value = 1.234; {slider}.oninput()")
+    assert next_event(viewer, "place") == pytest.approx((0.0, 1.23, 5.0))
+    assert page.evaluate(f"{slider}.nextSibling.textContent") == "1.23 m"
+    viewer.show_values({"place": [0.0, 0.5, 5.0]})
+    page.wait_until(f"Math.abs(Number({slider}.value) - 0.5) < 1e-9")
+
+
+GOAL_ON_SCREEN = """(() => {
+  const goal = viewer.scene_tree.find(["world", "goal", "ghost"]).object;
+  const at = goal.getWorldPosition(viewer.camera.position.clone()).project(viewer.camera);
+  const {left, top, width, height} = document.getElementById("meshcat-pane").getBoundingClientRect();
+  return [left + width * (1 + at.x) / 2, top + height * (1 - at.y) / 2];
+})()"""
+
+
+def pointer(page: Page, kind: str, x: float, y: float, *, shift: bool = False) -> None:
+    options = f"{{clientX: {x}, clientY: {y}, shiftKey: {str(shift).lower()}, pointerId: 1, bubbles: true}}"
+    page.evaluate(
+        f"document.querySelector('#meshcat-pane canvas').dispatchEvent(new PointerEvent('{kind}', {options}))"
+    )
+
+
+def show_goal(viewer: LiveViewer, page: Page, time: float, place: tuple[float, float, float]) -> None:
+    upright = {"goal_quaternion_body_to_ned": np.array([1.0, 0.0, 0.0, 0.0])}
+    viewer.draw(snapshot(time=time, goal_position_ned=np.array(place), **upright))
+    viewer.show_values({"place": list(place)})
+    page.wait_until(f"{element('clock')}.textContent === '{time:.1f} s' && glide.at_rest()")
+
+
+def test_a_goal_is_dragged_along_the_level_and_with_shift_up_and_down(viewer: LiveViewer, page: Page) -> None:
+    """Where the pointer lets go is where the goal then is on the screen."""
+    show_goal(viewer, page, 5.0, (0.5, 0.5, 5.0))
+    x, y = page.evaluate(GOAL_ON_SCREEN)
+    camera = page.evaluate("viewer.camera.position.toArray()")
+    pointer(page, "pointerdown", x, y)
+    pointer(page, "pointermove", x + 40, y + 15)
+    pointer(page, "pointerup", x + 40, y + 15)
+    north, east, down = next_event(viewer, "place")
+    assert down == 5.0
+    assert math.hypot(north - 0.5, east - 0.5) > 0.05
+    show_goal(viewer, page, 6.0, (north, east, down))
+    assert_allclose(page.evaluate(GOAL_ON_SCREEN), [x + 40, y + 15], atol=3.0)
+    pointer(page, "pointerdown", x + 40, y + 15)
+    pointer(page, "pointermove", x + 40, y - 30, shift=True)
+    pointer(page, "pointerup", x + 40, y - 30)
+    lifted = next_event(viewer, "place")
+    assert lifted[:2] == pytest.approx((north, east))
+    assert lifted[2] < down - 0.05
+    show_goal(viewer, page, 7.0, lifted)
+    assert page.evaluate(GOAL_ON_SCREEN)[1] == pytest.approx(y - 30, abs=3.0)
+    assert page.evaluate("viewer.camera.position.toArray()") == pytest.approx(camera)
+    pointer(page, "pointermove", x, y)  # let go, it stays
+    time.sleep(0.3)
+    assert not [event for event in viewer.events() if event.name == "place"]
+
+
+def test_who_does_not_take_the_goal_turns_the_camera(viewer: LiveViewer, page: Page) -> None:
+    show_goal(viewer, page, 8.0, (0.5, 0.5, 5.0))
+    x, y = page.evaluate(GOAL_ON_SCREEN)
+    pointer(page, "pointerdown", x + 100, y + 100)
+    pointer(page, "pointermove", x + 150, y + 100)
+    pointer(page, "pointerup", x + 150, y + 100)
+    time.sleep(0.3)
+    assert not [event for event in viewer.events() if event.name == "place"]
+
+
 def test_keys_while_a_number_is_typed_are_only_typed(viewer: LiveViewer, page: Page) -> None:
     page.evaluate(
         f"{element('control-seed')}.dispatchEvent(new KeyboardEvent('keydown', {{code: 'KeyW', bubbles: true}}))"
@@ -184,6 +268,22 @@ def test_help_lists_the_keys(page: Page) -> None:
         assert explained in listed
     page.evaluate(f"{element('panel-help-close')}.click()")
     assert page.evaluate(f"{element('panel-help')}.hidden")
+
+
+def test_a_group_has_a_note_and_stays_folded(viewer: LiveViewer, page: Page) -> None:
+    folded = "document.querySelector('#panel-controls details')"
+    assert page.evaluate(f"{folded}.querySelector('.note').textContent") == "What this is about."
+    page.evaluate(f"window.old = {folded}; {folded}.open = false")
+    viewer.show_controls(GROUPS)
+    page.wait_until(f"{folded} !== window.old")
+    assert page.evaluate(f"{folded}.open") is False
+    page.evaluate(f"{folded}.open = true")
+    viewer.show_controls((*GROUPS, Group("Seldom", (Button("seldom", "Seldom"),), opened=False)))
+    page.wait_until("document.querySelectorAll('#panel-controls details').length === 3")
+    opened = "[...document.querySelectorAll('#panel-controls details')].map((one) => one.open)"
+    assert page.evaluate(opened) == [True, True, False]
+    viewer.show_controls(GROUPS)
+    page.wait_until("document.querySelectorAll('#panel-controls details').length === 2")
 
 
 def test_readings_and_their_history(viewer: LiveViewer, page: Page) -> None:
@@ -290,6 +390,48 @@ def test_things_can_be_hidden(name: str, path: str, page: Page) -> None:
     assert page.node(path, "visible") is False
     page.evaluate(f"{element(f'view-{name}')}.click()")
     assert page.node(path, "visible") is True
+
+
+def test_readings_that_are_no_more_are_taken_away(viewer: LiveViewer, page: Page) -> None:
+    labels = (
+        "[...document.querySelectorAll('#panel-readings .row > label')].map((one) => one.textContent).join()"
+    )
+    viewer.show_readings(1.0, {"Motion": (Reading("depth", 5.0, "m"),)})
+    page.wait_until(f"{labels} === 'depth'")
+    viewer.show_readings(1.0, {"Motion": (Reading("height", 0.1, "m"), Reading("north", 0.0, "m"))})
+    page.wait_until(f"{labels} === 'height,north'")
+
+
+def test_another_vehicle_is_drawn_in_place_of_the_first(viewer: LiveViewer, page: Page) -> None:
+    length = """(() => {
+      const box = [Infinity, -Infinity];
+      viewer.scene_tree.find(["world", "vehicle"]).object.traverse((part) => {
+        const places = part.geometry && part.geometry.attributes.position;
+        for (let i = 0; places && i < places.count; i++) {
+          box[0] = Math.min(box[0], places.getX(i));
+          box[1] = Math.max(box[1], places.getX(i));
+        }
+      });
+      return box[1] - box[0];
+    })()"""
+    before = page.evaluate(length)
+    choose_camera(page, "top")
+    _, near, _ = camera_from_vehicle(page)
+    page.evaluate(f"{element('view-trail')}.click()")
+    viewer.show_vehicle(LONGER, "A longer one")
+    viewer.draw(snapshot(time=1.0))
+    page.wait_until(f"{element('title')}.textContent === 'A longer one' && {length} > 2 * {before}")
+    deadline = time.monotonic() + PATIENCE
+    while not camera_from_vehicle(page)[1] > 2.0 * near:  # as many lengths away
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    assert page.node("/world/trail", "visible") is False  # as was asked for before
+    page.evaluate(f"{element('view-trail')}.click()")
+    choose_camera(page, "follow")
+    assert page.evaluate("document.querySelectorAll('#panel-controls details').length") == 2
+    viewer.show_vehicle(ROV, "An ROV")
+    viewer.draw(snapshot(time=1.0))
+    page.wait_until(f"{element('title')}.textContent === 'An ROV' && {length} < 1.1 * {before}")
 
 
 def test_on_a_telephone_the_scene_can_be_seen(viewer: LiveViewer) -> None:

@@ -161,6 +161,7 @@ LIVE_PAGE = _page(
     _inline(_file("glide.js")),
     _inline(_file("panel.js")),
     _inline(_file("view.js")),
+    _inline(_file("drag.js")),
     _inline(_file("pace.js")),
 )
 CAPTURE_PAGE = _page(

@@ -2,90 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+import math
 
 import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.error import ResetNeeded
+from support.scripted_page import ScriptedPage
 
 import dq_marine  # noqa: F401 - registers
-from dq_marine.agents.controllers.baselines import ZeroAgent
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, with_keywords
-from dq_marine.agents.evaluation.flight import FlightPlan, Outputs
-from dq_marine.agents.interactive import flying
-from dq_marine.agents.interactive.conductor import HELM, Conductor
-from dq_marine.agents.interactive.controls import AGENT, CURRENT, HOLD, POWER, QUIT, RESET, SEED, STICK
+from dq_marine.agents.evaluation.flight import Outputs
+from dq_marine.agents.interactive.conductor import Conductor
+from dq_marine.agents.interactive.controls import AGENT, CURRENT, GOAL, HOLD, POWER, RESET, SEED, STICK
+from dq_marine.agents.interactive.flights import HELM, offered_agents
 from dq_marine.agents.interactive.helm import Helm
-from dq_marine.viewer.controls import LEFT, Event, Panel
-from dq_marine.viewer.pacing import RealTimePacer
+from dq_marine.agents.interactive.next_episode import NextEpisode
+from dq_marine.viewer.controls import LEFT, Event
 from dq_marine.viewer.playback import PLAYING, STEP
 
 STILL = with_keywords(DEFAULT_ENVIRONMENT, current=0.0)
-
-
-class Page:
-    """Stands in for the live viewer: at each look it hands over the next events of a script."""
-
-    url = "http://127.0.0.1:7000"
-
-    def __init__(self, script: list[list[Event]]) -> None:
-        self.script, self.panel = script, Panel(())
-        self.times: list[float] = []
-        self.notices: list[str] = []
-        self.values: list[dict[str, Any]] = []
-        self.readings: dict[str, Any] = {}
-
-    def __enter__(self) -> Page:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        pass
-
-    def draw(self, snapshot: Any) -> None:
-        self.times.append(snapshot.time)
-
-    def clear_trail(self) -> None:
-        pass
-
-    def show_controls(self, groups: Any) -> None:
-        self.panel = Panel(groups)
-
-    def show_values(self, values: dict[str, Any]) -> None:
-        self.values.append(values)
-
-    def show_readings(self, time: float, groups: Any) -> None:
-        self.readings = dict(groups)
-
-    def show_notice(self, text: str) -> None:
-        self.notices.append(text)
-
-    def events(self) -> list[Event]:
-        return self.script.pop(0) if self.script else [Event(QUIT)]
-
-
-@pytest.fixture(autouse=True)
-def no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(RealTimePacer, "wait_until", lambda self, time: None)
-
-
-@pytest.fixture
-def flight(monkeypatch: pytest.MonkeyPatch) -> Callable[..., tuple[Any, Page]]:
-    """Fly by a script of events: the last episode, and the page."""
-
-    def fly(script: list[list[Event]], *, seconds: float = 3.0, **keywords: Any) -> tuple[Any, Page]:
-        page = Page(script)
-        monkeypatch.setattr(flying, "open_page", lambda shape, title: page)
-        offer = keywords.pop("offer", lambda env: {"zero": ZeroAgent(6)})
-        environment = keywords.pop("environment", DEFAULT_ENVIRONMENT)
-        plan = FlightPlan(environment, seconds=seconds, seed=4)
-        episode = flying.fly_interactively(
-            plan, offer, keywords.pop("outputs", Outputs()), title="", **keywords
-        )
-        return episode, page
-
-    return fly
 
 
 def test_it_plays_until_the_person_quits(flight) -> None:
@@ -144,12 +80,33 @@ def test_the_current_that_is_chosen_is_felt(flight, tmp_path) -> None:
     episode, page = flight(script, seconds=40.0, outputs=Outputs(trajectory=tmp_path / "flight.csv"))
     east = episode.track.columns()["east_m"]
     assert np.diff(east)[-1] / 0.1 == pytest.approx(0.8, rel=0.05)
-    assert [one.name for one in page.panel._controls.values()][-2:] == list(CURRENT)
+    assert set(CURRENT) <= set(page.panel._controls)
 
 
 def test_without_a_current_there_is_no_slider_for_it(flight) -> None:
     _, page = flight([[]], environment=STILL)
     assert CURRENT[0] not in page.panel._controls
+
+
+def test_the_goal_is_put_elsewhere_at_once_also_while_it_is_paused(flight) -> None:
+    there = (1.0, -0.5, 6.0)
+    script = [[Event(PLAYING, False)], [Event(GOAL, there)], [Event(STEP)], []]
+    episode, page = flight(script, environment=STILL)
+    assert page.goals[-1] == there
+    assert page.goals[0] == (0.0, 0.0, 5.0)
+    assert page.times[page.goals.index(there)] == 0.0
+    before, after = episode.measured["position_error"]
+    assert before == pytest.approx(math.dist(page.places[0], page.goals[0]))
+    assert after == pytest.approx(math.dist(page.places[-1], there))
+    goal = page.panel._controls[GOAL]
+    assert (goal.least, goal.most) == ((-3.0, -3.0, 2.0), (3.0, 3.0, 8.0))  # half of the workspace around it
+
+
+def test_a_goal_that_is_refused_is_said(flight) -> None:
+    script = [[Event(GOAL, (0.0, 0.0, -5.0))], []]
+    _, page = flight(script, environment=STILL)
+    assert any("up in the air" in notice for notice in page.notices)
+    assert page.goals[-1] == (0.0, 0.0, 5.0)
 
 
 def test_everything_can_be_read(flight) -> None:
@@ -165,12 +122,14 @@ def test_everything_can_be_read(flight) -> None:
 
 def test_other_baselines_are_offered_where_they_can_fly() -> None:
     env = gym.make("dq_marine/StationKeeping-v0", disable_env_checker=True)
-    offered = flying.offered_agents(env, baselines=["zero"], runs=[], seed=0)
+    offered = offered_agents(env, baselines=["zero"], runs=[], seed=0)
     assert list(offered) == ["zero", "controller", "random"]
 
 
 def test_a_flight_must_have_begun() -> None:
     env = gym.make("dq_marine/StationKeeping-v0", disable_env_checker=True)
     helm = Helm(env)
+    chosen = NextEpisode(DEFAULT_ENVIRONMENT)
+    conductor = Conductor(ScriptedPage([]), {HELM: helm}, helm, seed=0, next_episode=chosen)  # type: ignore[arg-type]
     with pytest.raises(ResetNeeded):
-        Conductor(Page([]), {HELM: helm}, helm, seed=0).act(None)  # type: ignore[arg-type]
+        conductor.act(None)  # type: ignore[arg-type]

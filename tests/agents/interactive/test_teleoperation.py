@@ -22,6 +22,8 @@ PATIENCE = 180.0
 KEYS = ("KeyW", "KeyS", "KeyE", "KeyQ")
 READY = "document.querySelectorAll('#panel-controls details').length > 1"
 
+LABELS = "[...document.querySelectorAll('#panel-readings .row > label')].map((one) => one.textContent)"
+
 GOAL_FROM_VEHICLE = """(() => {
   const at = (...path) => viewer.scene_tree.find(["world", ...path]).object;
   const vehicle = at("vehicle"), goal = at("goal", "ghost");
@@ -59,10 +61,10 @@ def press(page: Page, kind: str, code: str) -> None:
 
 
 def reading(label: str) -> str:
-    """A JavaScript expression for the number that stands beside a label."""
+    """A JavaScript expression for the number that stands beside a label; NaN where there is none yet."""
     rows = "[...document.querySelectorAll('#panel-readings .row')]"
     row = f"{rows}.find((one) => one.firstChild.textContent === '{label}')"
-    return f"parseFloat({row}.querySelector('output').textContent)"
+    return f"parseFloat({row}?.querySelector('output').textContent)"
 
 
 def slide(page: Page, name: str, value: float) -> None:
@@ -95,7 +97,7 @@ def test_a_person_reaches_a_goal_by_the_keys(tmp_path: Path) -> None:
     assert trajectory.stat().st_size > 1000
 
 
-def test_the_current_slider_moves_the_water(tmp_path: Path) -> None:
+def test_sliders_move_the_water_and_the_goal_and_tune_the_controller(tmp_path: Path) -> None:
     with flight("--panel", "--agent", "zero", "--current", "0.1", "--seed", "3") as (process, page):
         slide(page, "speed", np.log(20.0))
         slide(page, "current_bearing", 0.0)
@@ -103,8 +105,50 @@ def test_the_current_slider_moves_the_water(tmp_path: Path) -> None:
         page.wait_until(f"{reading('north')} > 5.0")
         arrow = "viewer.scene_tree.find(['world', 'current', '0']).object"
         assert page.evaluate(f"{arrow}.matrixWorld.elements.slice(0, 3).some((one) => Math.abs(one) > 0)")
+        ghost = "viewer.scene_tree.find(['world', 'goal', 'ghost']).object"
+        before = page.evaluate(f"{ghost}.position.x")
+        slide(page, "goal-0", before + 2.0)
+        page.wait_until(f"Math.abs({ghost}.position.x - {before + 2.0}) < 0.02")
+        slide(page, "gain_position_bandwidth", np.log(10.0))
+        page.wait_until(
+            "document.getElementById('notice').textContent.includes('too long for the controller')"
+        )
+        gain = "Math.exp(Number(document.getElementById('control-gain_position_bandwidth').value))"
+        page.wait_until(f"Math.abs({gain} - 2.0) < 0.01")  # as it was
         page.evaluate("document.getElementById('control-playing').click()")
         page.wait_until("!document.getElementById('control-playing').checked")
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=120)
     assert process.returncode == 0, out
+
+
+def choose(page: Page, name: str, value: str) -> None:
+    choice = f"document.getElementById('control-{name}')"
+    page.wait_until(
+        f"{choice}.value === '{value}' || [...{choice}.options].some((one) => one.value === '{value}')"
+    )
+    page.evaluate(f"{choice}.value = '{value}'; {choice}.onchange()")
+
+
+def test_another_vehicle_task_and_weather_are_chosen_in_the_page() -> None:
+    said = "document.getElementById('notice').textContent"
+    title = "document.getElementById('title').textContent"
+    new_episode = "document.getElementById('control-reset').click()"
+    with flight("--panel", "--set", "current=0", "--seed", "3") as (process, page):
+        assert "from the next episode on" in page.evaluate(
+            "document.getElementById('panel-controls').textContent"
+        )
+        slide(page, "wind_speed", 12.0)
+        page.evaluate(new_episode)
+        page.wait_until(f"{said}.includes('is submerged, where there is no wind')")
+        page.wait_until(f"{title} === 'BlueROV2 Heavy' && {reading('position error')} > 0")
+        choose(page, "task", "PathFollowing")
+        choose(page, "vehicle", "bluerov2")
+        page.wait_until("document.getElementById('control-vehicle').value === 'bluerov2'")
+        page.evaluate(new_episode)
+        page.wait_until(f"{title} === 'BlueROV2' && {LABELS}.includes('cross track error')")
+        page.wait_until(f"{said} === '' && {reading('u, surge')} > 0.2")
+        assert "position error" not in page.evaluate(LABELS)
+        page.evaluate("document.getElementById('control-quit').click()")
+        out, _ = process.communicate(timeout=120)
+        assert process.returncode == 0, out

@@ -45,6 +45,7 @@ const panel = (() => {
   // Controls, by kind: each returns what is shown, and in `setters` how its value is shown
 
   const setters = new Map();
+  const places = [];  // {name, thing, values, move}: positions, of which some can be dragged in the scene
   const row = (label, ...parts) => make("div", {className: "row"}, make("label", {textContent: label}), ...parts);
   const bind = (key, meaning, act) => {
     if (key) { actions.set(key, act); explain([key], meaning); }
@@ -99,6 +100,38 @@ const panel = (() => {
       setters.set(control.name, (value) => { field.value = value; });
       return row(control.label, field);
     },
+    place(control) {
+      const values = [...control.value];
+      const rows = control.axes.map((axis, i) => {
+        const slider = make("input", {
+          type: "range", id: `control-${control.name}-${i}`, min: control.least[i], max: control.most[i], step: "any",
+        });
+        const shown = make("output");
+        slider.oninput = () => { place.move({[i]: Number(slider.value)}); };
+        return {slider, shown, row: row(axis, slider, shown)};
+      });
+      const place = {
+        name: control.name, thing: control.thing, values,
+        show() {
+          rows.forEach(({slider, shown}, i) => {
+            slider.value = values[i];
+            shown.textContent = `${values[i].toFixed(2)} m`;
+          });
+        },
+        move(wanted) {  // to a coordinate for each axis, where it is told
+          for (const [axis, value] of Object.entries(wanted)) {
+            const rounded = Math.round(value / control.step) * control.step;
+            values[axis] = Math.min(Math.max(rounded, control.least[axis]), control.most[axis]);
+          }
+          place.show();
+          say(control.name, values);
+        },
+      };
+      setters.set(control.name, (told) => { values.splice(0, 3, ...told); place.show(); });
+      places.push(place);
+      place.show();
+      return make("div", {id: `control-${control.name}`}, ...rows.map((one) => one.row));
+    },
     stick(control) {
       const pulls = control.axes.map(() => 0);
       const sliders = control.axes.map((axis, i) => {
@@ -149,6 +182,8 @@ const panel = (() => {
   const groups = new Map();
 
   function show_readings(content) {
+    const keys = Object.entries(content.groups).flatMap(([group, rows]) => rows.map(([label]) => `${group}/${label}`));
+    if ([...histories.keys()].some((key) => !keys.includes(key))) { remove_readings(); }  // of another vehicle or task
     for (const [group, rows] of Object.entries(content.groups)) {
       for (const [label, value, unit] of rows) {
         const history = history_of(group, label, unit);
@@ -207,6 +242,12 @@ const panel = (() => {
     for (const history of histories.values()) { history.values.length = 0; }
   }
 
+  function remove_readings() {
+    histories.clear();
+    groups.clear();
+    by_id("panel-readings").replaceChildren();
+  }
+
   // The page as a whole
 
   function toggle_help() { by_id("panel-help").hidden = !by_id("panel-help").hidden; }
@@ -220,13 +261,15 @@ const panel = (() => {
   }
 
   function show_controls(content) {
-    sticks.length = 0;
+    sticks.length = places.length = 0;
     setters.clear();
+    const before = new Map([...by_id("panel-controls").children].map((section) => [section.firstChild.textContent, section.open]));
     const sections = content.groups.map((group) => {
       const buttons = group.controls.filter((control) => control.kind === "button");
       const others = group.controls.filter((control) => control.kind !== "button");
       return make(
-        "details", {open: true}, make("summary", {textContent: group.label}),
+        "details", {open: before.get(group.label) ?? group.opened}, make("summary", {textContent: group.label}),
+        ...(group.note ? [make("p", {className: "note", textContent: group.note})] : []),
         ...(buttons.length ? [make("div", {className: "buttons"}, ...buttons.map(show_control.button))] : []),
         ...others.map((control) => show_control[control.kind](control)),
       );
@@ -271,5 +314,5 @@ const panel = (() => {
   (function each_frame() { say_sticks(); requestAnimationFrame(each_frame); })();
   connect();
   const connected = () => socket.readyState === WebSocket.OPEN;
-  return {bind, connected, make, row, fill_help};
+  return {bind, connected, fill_help, make, places, row};
 })();

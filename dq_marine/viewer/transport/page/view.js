@@ -91,23 +91,36 @@
     anchored = origin;
   }
 
-  let measured = 0;
+  let measured = {parts: 0, length: 0};  // anew when parts come, which they do one by one
   function vehicle_length() {
-    if (!measured) {
-      let least = Infinity, most = -Infinity;
-      thing("/world/vehicle").traverse((part) => {
+    const vehicle = thing("/world/vehicle");
+    let parts = 0, least = Infinity, most = -Infinity;
+    vehicle.traverse(() => { parts++; });
+    if (parts !== measured.parts) {
+      vehicle.traverse((part) => {
         const places = part.geometry && part.geometry.attributes.position;
         for (let i = 0; places && i < places.count; i++) {
           least = Math.min(least, places.getX(i));
           most = Math.max(most, places.getX(i));
         }
       });
-      measured = most > least ? most - least : 0;
+      measured = {parts, length: most > least ? most - least : 0};
     }
-    return measured || 1;
+    return measured.length || 1;
+  }
+
+  let world = null;
+  function meet_the_world() {  // with another vehicle, the world is drawn anew
+    const now = viewer.scene_tree.find(["world"]).object;
+    if (now === world) { return; }
+    world = now;
+    measured = {parts: 0, length: 0};
+    first_position = anchored = null;
+    for (const box of boxes) { box.onchange(); }
   }
 
   function each_frame() {
+    meet_the_world();
     if (!first_position && thing("/world/vehicle").children.length) { first_position = viewer.camera.position.clone(); }
     if (mode === "free") { stay_put(); } else if (mode !== "follow") { place_camera(); }
     requestAnimationFrame(each_frame);
@@ -115,8 +128,10 @@
 
   // Which things are shown
 
+  const boxes = [];
   const switches = Object.entries(SHOWN).map(([label, paths]) => {
     const box = make("input", {type: "checkbox", checked: true, id: `view-${label.replaceAll(" ", "-")}`});
+    boxes.push(box);
     box.onchange = () => {
       for (const path of paths) { thing(path).visible = box.checked; }
       viewer.set_dirty();
