@@ -91,3 +91,8 @@ def _debugger_url(profile: Path) -> str:
                 return str(pages[0]["webSocketDebuggerUrl"])
         time.sleep(0.05)
     raise TimeoutError("the browser shows no page that can be debugged")
+
+
+def element(name: str) -> str:
+    """A JavaScript expression for an element of a page."""
+    return f"document.getElementById('{name}')"
