@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -99,11 +101,23 @@ def check_way(settings: GroundSettings, keyword: str, length: float) -> None:
         )
 
 
-def grounds_for(settings: GroundSettings, waves: int) -> Grounds:
-    """Return the kind of ground of settings, which are `over_ground`'s: a chart, or else so many waves."""
-    if settings.seabed is None:
-        return make_wavy_ground(waves)
-    return make_charted_ground(*settings.seabed.depths.shape)
+def formulas_by_ground(
+    make_formulas: Callable[[Grounds], Mapping[str, Any]], waves: int
+) -> Callable[[GroundSettings], Mapping[str, Any]]:
+    """Return the `formulas` of a task, see `TaskDefinition`: by the kind of ground of settings, each made once.
+
+    Args:
+        make_formulas: (kind of ground) -> the task's formulas that are about it, by their names.
+        waves: of a seabed without a chart.
+    """
+    made = functools.cache(make_formulas)
+
+    def formulas(settings: GroundSettings) -> Mapping[str, Any]:
+        if settings.seabed is None:
+            return made(make_wavy_ground(waves))
+        return made(make_charted_ground(*settings.seabed.depths.shape))
+
+    return formulas
 
 
 def ground_flight(settings: GroundSettings, context: EpisodeContext) -> GroundFlight:

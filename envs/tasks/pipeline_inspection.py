@@ -2,54 +2,41 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.level import from_above
-from dq_marine.algebra.normal import normal_pair
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import bounded_vector, norm
 from dq_marine.checks import finite_number
-from dq_marine.envs.core.ground_settings import (
-    DISTURBED,
-    QUIET,
-    GroundSettings,
-    check_way,
-    ground_flight,
-    grounds_for,
-    over_ground,
-)
+from dq_marine.envs.core import ground_settings as ground_flights
+from dq_marine.envs.core.ground_settings import DISTURBED, QUIET, GroundSettings, ground_flight
 from dq_marine.envs.core.suitability import paced, unable_to_dive_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Observed, define_task
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, observed_velocity
 from dq_marine.task.ground_flight import FlightRewards as Rewards
 from dq_marine.task.ground_flight import GroundFlight, flight_rewards
-from dq_marine.task.grounds import Grounds, grounds_of, make_wavy_ground
+from dq_marine.task.grounds import Grounds, ground_draws, ground_of
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import along_curve, pipe_seen
 from dq_marine.task.splines import make_spline, make_winding, winding_draws
 from dq_marine.task.starts import under_way
 from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
-from dq_marine.task.world.beams import NO_ECHO, make_errors, make_fan_across, make_readings
+from dq_marine.task.world import pipes
+from dq_marine.task.world.beams import NO_ECHO, make_fan_across, make_readings
 from dq_marine.task.world.keel import make_keel_over
-from dq_marine.task.world.pipes import LaidPipe, Sight, View, beside_pipe, detected, make_pipe, sight
-from dq_marine.task.world.seabed import WAVE_DRAWS
+from dq_marine.task.world.pipes import LaidPipe, Sight, View, beside_pipe, detected, sight
 
 WAVES, SPANS, BEAMS = 4, 4, 9  # of the seabed; of the pipe, about a leg each; the middle one is an altimeter
 (point_at, nearer), wind = make_spline(SPANS), make_winding(SPANS)
-drawn_errors, readings = make_errors(BEAMS + 1), make_readings(BEAMS)
-EXACT = (0.0,) * (BEAMS + 1)  # errors before there are readings; with the last, the detector loses the pipe
+(drawn_errors, exact), readings = pipes.make_view_errors(BEAMS), make_readings(BEAMS)
 AHEAD, ASIDE, ANGLE = 1.0, 1.5, math.radians(60.0)  # of the bow, what the detector sees [altitudes, rad]
 START_OFF, START_TURN, START_DRAWS = 0.2, math.radians(15.0), 4  # from place [altitudes] and course [rad]
-ACQUIRED = 1.0  # span from whose beginning on errors count
-TOLERANCE, LEAST = 0.07, 0.1  # success: mean errors across and up below this [altitudes, but at least m]
-ASKEW = math.radians(5.0)  # and that of the course over ground below this [rad]
-UNITS = {"course": "rad", "impact": "m/s"}  # of metrics, else m
-LOST = 2.0  # episodes end farther than this from the pipe [altitudes]
+ACQUIRED, LOST = 1.0, 2.0  # span from which on errors count; episodes end farther off than this [altitudes]
+TOLERANCE, LEAST, ASKEW = 0.07, 0.1, math.radians(5.0)  # success: mean errors below [altitudes or m; rad]
 
 
 @dataclass(frozen=True)
@@ -67,7 +54,8 @@ class Settings(GroundSettings):
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
     leg = finite_number("leg", given.leg, least=1.0, most=1e3)
-    check_way(flown := over_ground(given, vehicle), "leg", SPANS * leg * vehicle.dimensions.length)
+    flown = ground_flights.over_ground(given, vehicle)
+    ground_flights.check_way(flown, "leg", SPANS * leg * vehicle.dimensions.length)
     return replace(
         flown,
         leg=leg,
@@ -89,10 +77,7 @@ class Parameters(NamedTuple):
 
 
 class Metrics(NamedTuple):
-    """To starboard of the pipe, height over its axis less the altitude [m], course over ground off the pipe's [rad].
-
-    Means of their magnitudes since errors count; clearance of the hull [m], speed in contact, or 0 [m/s].
-    """
+    """Errors to starboard, up [m], in course [rad]; means since errors count; clearance [m]; speed in contact [m/s]."""
 
     cross_track_error: float
     altitude_error: float
@@ -125,17 +110,15 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     return Parameters(flight, *pipe, tolerance, AHEAD * high, Sight(ASIDE * high, ANGLE))
 
 
-@functools.cache
 def make_formulas(grounds: Grounds) -> dict[str, Any]:
     """Return the formulas that are about a kind of ground, by their names."""
     depth_at, whole, drawn = grounds.depth, grounds.whole, grounds.drawn
-    keel_over, (laid, cast_below) = make_keel_over(depth_at), make_pipe(grounds.along, grounds.cast)
+    keel_over, (laid, cast_below) = make_keel_over(depth_at), pipes.make_pipe(grounds.along, grounds.cast)
     fan = make_fan_across(BEAMS, cast_below)
 
     def drawn_ground(own: Parameters, uniforms: tuple[float, ...]) -> Any:
-        course, length = math.tau * uniforms[START_DRAWS], SPANS * own.leg
-        way = (length * math.cos(course), length * math.sin(course))
-        return drawn(own.flight, way, uniforms, START_DRAWS + winding_draws(SPANS))
+        course, index = math.tau * uniforms[START_DRAWS], START_DRAWS + winding_draws(SPANS)
+        return drawn(own.flight, course, SPANS * own.leg, uniforms, index)
 
     def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
         """Return a start about over the pipe's beginning, under way about along it at half the speed or more."""
@@ -156,41 +139,34 @@ def make_formulas(grounds: Grounds) -> dict[str, Any]:
         here, soon = point_at(controls, parameter), point_at(controls, ahead)
         pipe = laid(ground, from_above(here.position_ned), from_above(here.slope_ned), own.radius)
         by, over = beside_pipe(pipe, motion, flight.keel), keel_over(ground, motion, flight.keel)
-        off, clearance = by.height - flight.altitude, min(over.clearance, by.clearance)
+        off, room = by.height - flight.altitude, min(over.clearance, by.clearance)
         errors = (abs(by.starboard), abs(off), abs(by.askew))
         tally = counted(memory.tally, parameter > ACQUIRED, errors, flight.period)
         cross, high, askew = means(tally, flight.period)
-        impact = select(clearance < 0.0, norm(motion.velocity.linear), 0.0)
+        impact = select(room < 0.0, norm(motion.velocity.linear), 0.0)
         ranges = fan(LaidPipe(ground, pipe), place, motion.attitude, flight.reach)
         seen = sight(motion, from_above(soon.position_ned), from_above(soon.slope_ned), own.ahead)
-        metrics = Metrics(
-            by.starboard, off, by.askew, cross, high, askew, clearance, impact, parameter / SPANS
-        )
+        metrics = Metrics(by.starboard, off, by.askew, cross, high, askew, room, impact, parameter / SPANS)
         return Memory(memory.ground, controls, View(ranges, seen), memory.errors, by.speed, tally, metrics)
 
     def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
         """Return a new seabed with a pipe, and what is seen of them."""
         controls = wind((0.0, 0.0, 0.0), own.leg, own.turn, 0.0, uniforms, START_DRAWS)
-        nothing, zeros = View(EXACT, Sight(0.0, 0.0)), Metrics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        blank = Memory(drawn_ground(own, uniforms), controls, nothing, nothing, 0.0, NOTHING_YET, zeros)
+        zeros = Metrics(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        blank = Memory(drawn_ground(own, uniforms), controls, exact, exact, 0.0, NOTHING_YET, zeros)
         return update_memory(own, blank, Motion(*begun), Motion(*begun))
 
     return {"start": start, "initial_memory": initial_memory, "update_memory": update_memory}
 
 
-start, initial_memory, update_memory = make_formulas(make_wavy_ground(WAVES)).values()
-
-
-def formulas(settings: Settings) -> dict[str, Any]:
-    """Return the formulas for the seabed of the settings."""
-    return make_formulas(grounds_for(settings, WAVES))
+formulas = ground_flights.formulas_by_ground(make_formulas, WAVES)
+start, initial_memory, update_memory = formulas(Settings()).values()
 
 
 def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
     """Return the memory with new errors of the beams' readings and of the detector."""
-    flight, (aside, turned) = own.flight, normal_pair(uniforms[BEAMS + 1], uniforms[BEAMS + 2])
-    seen = Sight(flight.noise * aside, flight.noise / flight.altitude * turned)
-    errors = View(drawn_errors(flight.noise, flight.dropout, uniforms), seen)
+    flight = own.flight
+    errors = drawn_errors(flight.noise, flight.dropout, flight.altitude, uniforms)
     return Memory(memory.ground, memory.controls, memory.shown, errors, *memory[4:])
 
 
@@ -211,9 +187,7 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     """Return what an observation consists of."""
     length, high = vehicle.dimensions.length, settings.altitude * vehicle.dimensions.length
     return (
-        Observed(
-            "sonar_readings", "", BEAMS, 1.0, "free way over the reach from port to starboard, down amid"
-        ),
+        Observed("sonar_readings", "", BEAMS, 1.0, "free way over the reach, from port to starboard"),
         Observed("pipe_seen", "", 1, 1.0, "1 where the detector sees the pipe; else 0, as what it tells"),
         Observed("pipe_starboard", "m", 1, ASIDE * high, "how far to starboard of the bow the pipe is ahead"),
         Observed("pipe_bearing", "rad", 1, ANGLE, "where it leads to there, from the bow to starboard"),
@@ -240,10 +214,9 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
 
 def succeeded(own: Parameters, now: Situation) -> Any:
     """Whether the end of the pipe is reached, near enough to it from the second leg on, without contact."""
-    metrics, most = now.metrics, own.tolerance
-    near = (metrics.mean_cross_track_error < most) & (metrics.mean_altitude_error < most)
-    straight, untouched = metrics.mean_course_error < ASKEW, metrics.clearance >= 0.0
-    return near & straight & untouched & (metrics.share_done >= 1.0)
+    found = now.metrics
+    near = max(found.mean_cross_track_error, found.mean_altitude_error) < own.tolerance
+    return near & (found.mean_course_error < ASKEW) & (found.clearance >= 0.0) & (found.share_done >= 1.0)
 
 
 def terminated(own: Parameters, now: Situation) -> Any:
@@ -255,20 +228,18 @@ def terminated(own: Parameters, now: Situation) -> Any:
 
 def scenery(own: Parameters, memory: Memory) -> Any:
     """Return the pipe and the seabed about it, for drawing."""
-    route = along_curve(lambda s: point_at(memory.controls, s).position_ned, float(SPANS))
-    grounds = grounds_of(own.flight, WAVES)
-    ground = grounds.whole(own.flight, memory.ground)
-    return pipe_seen(grounds.depth, ground, route, own.radius, 2.0 * own.flight.altitude)
+    way = along_curve(lambda s: point_at(memory.controls, s).position_ned, float(SPANS))
+    return pipe_seen(*ground_of(own.flight, memory.ground, WAVES), way, own.radius, 2.0 * own.flight.altitude)
 
 
 define_task(
     globals(),
     id="dq_marine/PipelineInspection-v0",
     summary="Follow a pipe on an uneven seabed by sonar and a detector, in an unseen current.",
-    draws=START_DRAWS + winding_draws(SPANS) + WAVES * WAVE_DRAWS,
+    draws=START_DRAWS + winding_draws(SPANS) + ground_draws(WAVES),
     sense_draws=BEAMS + 3,
     lasting=("seabed",),
-    units={name: UNITS.get(name.split("_")[-2:][0], "m") for name in Metrics._fields[:-1]},
+    units={n: "rad" if "course" in n else "m/s" if "speed" in n else "m" for n in Metrics._fields[:-1]},
     tolerances={"cross_track_error": LEAST, "altitude_error": LEAST},
     levels={"easy": {"slope": 0.15, "turn": 15.0, **QUIET}, "medium": {"current": 0.2}, "hard": DISTURBED},
     unsuitable=unable_to_dive_under_way,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -12,22 +11,15 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.vector3 import bounded, bounded_vector
 from dq_marine.checks import finite_number
-from dq_marine.envs.core.ground_settings import (
-    DISTURBED,
-    QUIET,
-    GroundSettings,
-    check_way,
-    ground_flight,
-    grounds_for,
-    over_ground,
-)
+from dq_marine.envs.core import ground_settings as ground_flights
+from dq_marine.envs.core.ground_settings import DISTURBED, QUIET, GroundSettings, ground_flight
 from dq_marine.envs.core.suitability import paced, unable_to_dive_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, observed_velocity
 from dq_marine.task.ground_flight import FlightRewards as Rewards
 from dq_marine.task.ground_flight import GroundFlight, flight_rewards
-from dq_marine.task.grounds import Grounds, grounds_of, make_wavy_ground
+from dq_marine.task.grounds import Grounds, ground_draws, ground_of
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import ground_seen
 from dq_marine.task.starts import under_way
@@ -35,7 +27,6 @@ from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
 from dq_marine.task.tracks import on_track
 from dq_marine.task.world.beams import make_errors, make_fan_ahead, make_readings
 from dq_marine.task.world.keel import make_keel_over
-from dq_marine.task.world.seabed import WAVE_DRAWS
 
 WAVES, BEAMS = 4, 6  # of the seabed; and beams, the last of which is the altimeter
 drawn_errors, readings = make_errors(BEAMS), make_readings(BEAMS)
@@ -57,7 +48,8 @@ class Settings(GroundSettings):
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
     track = finite_number("track", given.track, least=1.0, most=1e4)
-    check_way(flown := over_ground(given, vehicle), "track", track * vehicle.dimensions.length)
+    flown = ground_flights.over_ground(given, vehicle)
+    ground_flights.check_way(flown, "track", track * vehicle.dimensions.length)
     return replace(flown, track=track)
 
 
@@ -111,15 +103,13 @@ def course_of(uniforms: tuple[float, ...]) -> Level:
     return math.cos(math.tau * uniforms[0]), math.sin(math.tau * uniforms[0])
 
 
-@functools.cache
 def make_formulas(grounds: Grounds) -> dict[str, Any]:
     """Return the formulas that are about a kind of ground, by their names."""
     depth_at, whole, drawn = grounds.depth, grounds.whole, grounds.drawn
     keel_over, fan = make_keel_over(depth_at), make_fan_ahead(BEAMS, grounds.cast)
 
     def drawn_ground(own: Parameters, uniforms: tuple[float, ...]) -> Any:
-        course = course_of(uniforms)
-        return drawn(own.flight, (own.track * course[0], own.track * course[1]), uniforms, START_DRAWS)
+        return drawn(own.flight, math.tau * uniforms[0], own.track, uniforms, START_DRAWS)
 
     def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
         """Return a start about at the altitude, under way about along the track at half the speed or more."""
@@ -157,12 +147,8 @@ def make_formulas(grounds: Grounds) -> dict[str, Any]:
     return {"start": start, "initial_memory": initial_memory, "update_memory": update_memory}
 
 
-start, initial_memory, update_memory = make_formulas(make_wavy_ground(WAVES)).values()
-
-
-def formulas(settings: Settings) -> dict[str, Any]:
-    """Return the formulas for the seabed of the settings."""
-    return make_formulas(grounds_for(settings, WAVES))
+formulas = ground_flights.formulas_by_ground(make_formulas, WAVES)
+start, initial_memory, update_memory = formulas(Settings()).values()
 
 
 def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
@@ -191,9 +177,7 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     """Return what an observation consists of."""
     far = 2.0 * LOST * settings.altitude * vehicle.dimensions.length
     return (
-        Observed(
-            "ground_ahead_readings", "", BEAMS - 1, 1.0, "free way over the reach, the lowest beam last"
-        ),
+        Observed("ground_ahead_readings", "", BEAMS - 1, 1.0, "free way over the reach, the lowest last"),
         Observed("altimeter_reading", "", 1, 1.0, "the same of the beam straight down"),
         Observed("ordered_altitude", "m", 1, 0.5 * far / LOST, "the altitude to keep"),
         Observed("starboard_of_track", "m", 1, far, "how far the vehicle is to starboard of the track"),
@@ -234,18 +218,15 @@ def terminated(own: Parameters, now: Situation) -> Any:
 def scenery(own: Parameters, memory: Memory) -> Any:
     """Return the seabed along the track, for drawing."""
     north, east = memory.course
-    grounds = grounds_of(own.flight, WAVES)
     track = ((0.0, 0.0), (own.track * north, own.track * east))
-    return ground_seen(
-        grounds.depth, grounds.whole(own.flight, memory.ground), track, 3.0 * own.flight.altitude
-    )
+    return ground_seen(*ground_of(own.flight, memory.ground, WAVES), track, 3.0 * own.flight.altitude)
 
 
 def goal(own: Parameters, memory: Memory) -> Goal:
     """Return the end of the track at its altitude, for drawing."""
     north, east = (own.track * part for part in memory.course)
-    grounds = grounds_of(own.flight, WAVES)
-    depth = grounds.depth(grounds.whole(own.flight, memory.ground), north, east) - own.flight.altitude
+    depth_at, ground = ground_of(own.flight, memory.ground, WAVES)
+    depth = depth_at(ground, north, east) - own.flight.altitude
     return goal_along((north, east, depth), (north, east, 0.0))
 
 
@@ -253,7 +234,7 @@ define_task(
     globals(),
     id="dq_marine/TerrainFollowing-v0",
     summary="Keep an altitude over an uneven seabed that beams tell of, along a track, in an unseen current.",
-    draws=START_DRAWS + WAVES * WAVE_DRAWS,
+    draws=START_DRAWS + ground_draws(WAVES),
     sense_draws=BEAMS,
     lasting=("seabed",),
     units={name: "m/s" if "speed" in name else "m" for name in Metrics._fields[:-1]},

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from identification.logs import written
-from support.sweeps import sweep
 
 from dq_marine import Scene, load_vehicle
 from dq_marine.algebra.attitude import attitude_angles
@@ -68,7 +67,8 @@ def fitted(tmp_path, seconds, actuation, as_filed):
     return fit, {label: abs(value / expected[label]) for label, value in off.items()}
 
 
-@pytest.mark.parametrize("seconds", sweep([200.0, 600.0], plain=[200.0]))
+@pytest.mark.sweep  # tests/identification/test_fit_command.py recovers a vehicle
+@pytest.mark.parametrize("seconds", [200.0, 600.0])
 def test_a_model_that_is_pushed_about_tells_its_polynomials(tmp_path, seconds):
     """Up to 30 degrees of drift and r' = 2; X'_vr, a tenth of a per cent of the resistance, is not told, and held."""
     small = SMALL if seconds < 600.0 else ()

@@ -15,11 +15,12 @@ from dq_marine.algebra.level import (
     level_length,
     seen_at,
 )
+from dq_marine.algebra.normal import normal_pair
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import Vector3, add_scaled, subtract
 from dq_marine.integrator.body import Motion
-from dq_marine.task.world.beams import Cast
+from dq_marine.task.world.beams import Cast, make_errors
 from dq_marine.task.world.distances import line_distance
 from dq_marine.task.world.keel import Keel
 from dq_marine.task.world.rays import ray_to_line
@@ -148,6 +149,22 @@ def detected(sight: Sight, errors: Sight, widest: Sight, lost: bool) -> tuple[fl
     starboard, bearing = sight.starboard + errors.starboard, sight.bearing + errors.bearing
     beyond = (abs(starboard) > widest.starboard) | (abs(bearing) > widest.bearing)
     return select(beyond | lost, spread((0.0, 0.0, 0.0), bearing), (spread(1.0, bearing), starboard, bearing))
+
+
+def make_view_errors(beams: int) -> tuple[Callable[[float, float, float, Any], View], View]:
+    """Return (noise, dropout, altitude [m], uniforms) -> errors of a view, and those of one without errors.
+
+    The range after those of the beams tells by `NO_ECHO` that the detector loses the pipe. `beams` + 3 uniform numbers
+    are used.
+    """
+    drawn_errors = make_errors(beams + 1)
+
+    def view_errors(noise: float, dropout: float, altitude: float, uniforms: Any) -> View:
+        aside, turned = normal_pair(uniforms[beams + 1], uniforms[beams + 2])
+        seen = Sight(noise * aside, noise / altitude * turned)
+        return View(drawn_errors(noise, dropout, uniforms), seen)
+
+    return view_errors, View((0.0,) * (beams + 1), Sight(0.0, 0.0))
 
 
 def sight(motion: Motion, place: Level, course: Level, ahead: float) -> Sight:

@@ -1,6 +1,7 @@
 """Flight over a charted seabed: where episodes are on it, what beams tell of it, and lanes that equal singles."""
 
 import copy
+import math
 import pickle
 
 import gymnasium as gym
@@ -121,9 +122,12 @@ def test_places_are_those_of_the_uniform_numbers_whichever_way_the_track_goes():
     flight = env.episode_parameters({}).task.flight
     drawn = grounds_of(flight, 4).drawn
     north, east = NORTHS[-1], EASTS[-1]
-    assert drawn(flight, (50.0, 20.0), (0.0, 0.0), 0) == ChartPlace(0.0, 0.0)
-    assert drawn(flight, (-50.0, 20.0), (0.0, 1.0), 0) == pytest.approx((-50.0, 20.0 - east))
-    assert drawn(flight, (-50.0, -20.0), (1.0, 0.5), 0) == pytest.approx((-north, -0.5 * (east + 20.0)))
+    course, length = math.atan2(20.0, 50.0), math.hypot(50.0, 20.0)  # 50 m one way, 20 m the other
+    assert drawn(flight, course, length, (0.0, 0.0), 0) == ChartPlace(0.0, 0.0)
+    there = drawn(flight, math.pi - course, length, (0.0, 1.0), 0)
+    assert there == pytest.approx((-50.0, 20.0 - east))
+    there = drawn(flight, math.pi + course, length, (1.0, 0.5), 0)
+    assert there == pytest.approx((-north, -0.5 * (east + 20.0)))
 
 
 @pytest.mark.sweep

@@ -45,6 +45,7 @@ def flights():
     return {seed: (flown(env, seed), flown(env, seed, blind=True)) for seed in SEEDS}
 
 
+@pytest.mark.sweep  # the controller and beams by themselves are met in a plain run
 def test_the_controller_arrives_where_a_blind_one_collides(flights):
     seeing = [one[-1]["is_success"] for one, _ in flights.values()]
     blind = [one[-1]["is_success"] for _, one in flights.values()]
