@@ -107,10 +107,11 @@ def test_time_runs_backwards_and_returns_to_the_start(order, seed):
     back = Scene(vehicle, current=current, step=-0.05, order=order).stepper()
     forth.reset(rng.normal(size=3), random_quaternion(rng), 0.3 * rng.normal(size=6))
     start = forth.get_state()
-    wrench = rng.normal(size=6)
-    forth.step(wrench, 100)
+    wrench = 0.3 * rng.normal(size=6)  # at higher spin a step of 0.05 s is split, forth and back not alike
+    forth.step(wrench, 40)  # long motions are unstable and spread round-off
     back.set_state(forth.get_state())
-    back.step(wrench, 100)
+    back.step(wrench, 40)
+    assert forth.fallback_steps == back.fallback_steps == 0
     assert np.allclose(back.get_state(), start, rtol=0, atol=1e-9)
     assert back.time == pytest.approx(0.0, abs=1e-12)
 
