@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import gymnasium as gym
 import numpy as np
@@ -48,11 +48,6 @@ class AvoidanceController(Journey):
             own.lasting * size.length / self._speed,
         )
         self._kept: float | None = None
-
-    @classmethod
-    def for_env(cls, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> Self:
-        """Return the controller for an environment's vehicle; None reads the preset `autopilot`."""
-        return cls(env, autopilot=settings)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""

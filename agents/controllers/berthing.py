@@ -52,9 +52,9 @@ class BerthingController(Journey):
         "contact_speed_limit",
     )
 
-    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        super().__init__(env, settings)
+        super().__init__(env, autopilot)
         vehicle, inner = self._vehicle, marine(env)
         self._length, self._cruising = vehicle.dimensions.length, cruising_speed(vehicle)
         self._speed = HASTE * self._cruising

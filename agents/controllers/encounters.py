@@ -37,9 +37,9 @@ class EncounterController(Journey):
         *MOTION,
     )
 
-    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        super().__init__(env, settings)
+        super().__init__(env, autopilot)
         self._speed, length = cruising_speed(self._vehicle), self._pilot.length
         self._choice = CourseChoice()
         self._periods = max(1, round(BETWEEN_CHOICES * length / self._speed / self._pilot.period))

@@ -52,9 +52,9 @@ class FormationController(Journey):
         *MOTION,
     )
 
-    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        super().__init__(env, settings)
+        super().__init__(env, autopilot)
         self._guidance = LineOfSight(self._pilot, self._settings)
         self._filter: FormationFilter | None = None
         self._ages = [math.inf] * len(SENDERS)

@@ -34,18 +34,18 @@ class Journey:
 
     READS: ClassVar[tuple[str, ...]]
 
-    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
         inner = marine(env)
         self._vehicle = inner.vehicle
         self._read = parts_reader(inner, self.READS)
-        self._settings = settings or read_settings("autopilot", AutopilotSettings)
+        self._settings = autopilot or read_settings("autopilot", AutopilotSettings)
         self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
 
     @classmethod
     def for_env(cls, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> Self:
         """Return the controller for an environment's vehicle; None reads the preset `autopilot`."""
-        return cls(env, settings)
+        return cls(env, autopilot=settings)
 
     @property
     def settings(self) -> AutopilotSettings:
@@ -70,9 +70,9 @@ class PathController(Journey):
         *MOTION,
     )
 
-    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        super().__init__(env, settings)
+        super().__init__(env, autopilot)
         self._guidance = LineOfSight(self._pilot, self._settings)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
@@ -97,9 +97,9 @@ class WaypointController(Journey):
 
     READS: ClassVar[tuple[str, ...]] = ("waypoint_body", *MOTION)
 
-    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        super().__init__(env, settings)
+        super().__init__(env, autopilot)
         self._speed = cruising_speed(self._vehicle) * self._settings.haste
         self._slowest, self._bend = slow_bends(self._pilot, self._settings, self._speed)
 

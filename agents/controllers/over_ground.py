@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Self
+from typing import Any
 
 import gymnasium as gym
 import numpy as np
@@ -37,11 +37,6 @@ class GroundJourney(Journey):
         self._ground = Ground(
             self._over_ground.width * self._altitude, self._over_ground.behind * self._altitude
         )
-
-    @classmethod
-    def for_env(cls, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> Self:
-        """Return the controller for an environment's vehicle; None reads the preset `autopilot`."""
-        return cls(env, autopilot=settings)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""

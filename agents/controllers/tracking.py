@@ -59,9 +59,9 @@ class Following(Journey):
 
     READS = TrackingController.READS
 
-    def __init__(self, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> None:
+    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        super().__init__(env, settings)
+        super().__init__(env, autopilot)
         self._guidance = LineOfSight(self._pilot, self._settings)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:

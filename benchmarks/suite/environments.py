@@ -98,7 +98,7 @@ def measure(plan: Plan) -> dict[str, Any]:
 
 def rows_of_size(plan: Plan, size: int) -> list[Row]:
     """Return all kinds of environments of one size, measured in turn."""
-    actions = random_actions(size)
+    actions = random_actions((size, 6))
     stretches: dict[tuple[str, str, int], Stretch] = {}
     for threads in plan.threads:
         for arithmetic, precision in KINDS:
@@ -161,10 +161,10 @@ def gymnasium_own(size: int) -> VectorEnv[Any, Any, Any]:
     return gym.make_vec(ID, num_envs=size, vectorization_mode="sync", vector_kwargs=mode)
 
 
-def random_actions(size: int) -> list[Any]:
-    """Return some actions for all environments."""
+def random_actions(shape: tuple[int, ...]) -> list[Any]:
+    """Return some actions of a shape."""
     rng = np.random.default_rng(0)
-    return [rng.uniform(-1.0, 1.0, (size, 6)).astype(np.float32) for _ in range(8)]
+    return [rng.uniform(-1.0, 1.0, shape).astype(np.float32) for _ in range(8)]
 
 
 def tables(content: dict[str, Any]) -> str:

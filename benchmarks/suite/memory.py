@@ -107,7 +107,7 @@ def taken_by_bodies(plan: Plan) -> Iterable[Row]:
 
 def taken_by_environments(plan: Plan) -> Iterable[Row]:
     """Yield what calls of a vector environment take."""
-    actions = random_actions(BODIES)
+    actions = random_actions((BODIES, 6))
     for copy in (True, False):
         plan.tell(f"calls of a vector environment, copy={copy}")
         envs = marine(BODIES, copy=copy, threads=1)

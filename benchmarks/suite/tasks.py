@@ -5,21 +5,19 @@ from __future__ import annotations
 from typing import Any
 
 import gymnasium as gym
-import numpy as np
 from gymnasium.vector import AutoresetMode
 
 from dq_marine.envs.core.definition import TaskDefinition
-from dq_marine.envs.core.registry import registered_tasks
+from dq_marine.envs.core.registry import shipped_tasks
 from dq_marine.report.plan import Row, distinct
 from dq_marine.report.presentation import three_digits
 from dq_marine.report.timing import Timed
 from suite.batch import named
-from suite.environments import Stretch, row_of, run_in_turn
+from suite.environments import SHOWN_SIZE as SIZE
+from suite.environments import Stretch, random_actions, row_of, run_in_turn
 from suite.plan import LEAST, Plan, Section
 from suite.tables import find, found, millions, noise, table
 
-SIZE = 4096
-ACTIONS = 8
 SINGLE = "single"
 
 METHOD = f"""\
@@ -31,14 +29,17 @@ stretch of at least {LEAST * 1e3:.0f} ms, resets included.
 
 
 class Single:
-    """A single environment under way, reset whenever an episode ends."""
+    """A single environment under way, reset whenever an episode ends.
+
+    Attributes:
+        steps: that a call of `step` takes.
+    """
 
     def __init__(self, identifier: str) -> None:
         self._env = gym.make(identifier)
         self._env.reset(seed=0)
-        rng = np.random.default_rng(0)
-        space = self._env.action_space
-        self._actions = [rng.uniform(-1.0, 1.0, space.shape).astype(space.dtype) for _ in range(ACTIONS)]
+        self._actions = random_actions(self._env.action_space.shape or ())
+        self.steps = len(self._actions)
 
     def step(self) -> None:
         """Take a few steps."""
@@ -52,14 +53,9 @@ class Single:
         self._env.close()
 
 
-def ours() -> list[TaskDefinition]:
-    """Return the tasks that ship."""
-    return [task for task in registered_tasks() if task.id.startswith("dq_marine/")]
-
-
 def measure(plan: Plan) -> dict[str, Any]:
     """Return times of a step of every task."""
-    tasks = plan.pick(ours(), ours()[:2])
+    tasks = plan.pick(shipped_tasks(), shipped_tasks()[:2])
     return {"rows": [row for task in tasks for row in (single_row(plan, task), *lane_rows(plan, task))]}
 
 
@@ -67,7 +63,7 @@ def single_row(plan: Plan, task: TaskDefinition) -> Row:
     """Return the time of a step of a single environment."""
     plan.tell(f"{task.id}, single")
     env = Single(task.id)
-    timing = plan.compare({SINGLE: Timed(env.step, ACTIONS)})[SINGLE]
+    timing = plan.compare({SINGLE: Timed(env.step, env.steps)})[SINGLE]
     env.close()
     return {"task": task.id, "vehicle": task.vehicle, "environments": 1, **timing.full_row()}
 
@@ -89,9 +85,7 @@ def lane_rows(plan: Plan, task: TaskDefinition) -> list[Row]:
 def stretch_of(task: TaskDefinition, threads: int) -> Stretch:
     """Return environments in lanes, and actions for them."""
     envs = gym.make_vec(task.id, num_envs=SIZE, autoreset_mode=AutoresetMode.SAME_STEP, threads=threads)
-    shape = envs.action_space.shape or ()
-    rng = np.random.default_rng(0)
-    return Stretch(envs, [rng.uniform(-1.0, 1.0, shape).astype(np.float32) for _ in range(ACTIONS)])
+    return Stretch(envs, random_actions(envs.action_space.shape or ()))
 
 
 def tables(content: dict[str, Any]) -> str:

@@ -14,7 +14,7 @@ from dq_marine.task.grounds import ChartSheet
 from dq_marine.task.world.charts import charted
 
 MOST_SAMPLES = 2**16
-"""Of a chart: each environment holds them all, and begins an episode with a copy."""
+"""Of a chart, or of a grid of distances: each environment holds them all, and begins an episode with a copy."""
 
 LEAST_SPACING, MOST_SPACING, DEEPEST = 1e-3, 1e4, 2e4
 """Of samples, both ways, and of a seabed [m]: the Mariana Trench has 11 km."""

@@ -13,15 +13,13 @@ from numpy.typing import NDArray
 
 from dq_marine.algebra.table import Table
 from dq_marine.algebra.vector3 import Vector3
+from dq_marine.charts.seabed_chart import MOST_SAMPLES
 from dq_marine.charts.triangles import distances_to
 from dq_marine.checks import finite_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.meshes.repair import closed_surface, winding_numbers
 from dq_marine.meshes.stl import read_stl
 from dq_marine.task.world.charts import DistanceGrid, make_grid_distance
-
-MOST_SAMPLES = 2**16
-"""Of a grid: each environment holds them all."""
 
 MOST_PAIRS = 2**26
 """Of a sample and a triangle: as many distances take about a minute."""

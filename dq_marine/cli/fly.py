@@ -6,7 +6,7 @@ from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -24,6 +24,11 @@ from dq_marine.cli.options import (
     print_preset,
 )
 from dq_marine.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    from dq_marine.agents.evaluation.episodes import Episode
+    from dq_marine.agents.evaluation.flight import FlightPlan, Outputs
+    from dq_marine.agents.interactive.flights import MakeAgents
 
 SECONDS, SECONDS_WITH_PANEL = 30.0, 3600.0
 """How long a flight is if nobody says so [s]; with a panel the person ends it."""
@@ -181,15 +186,11 @@ def fly(
         files = Outputs(html=html, plot=plot, trajectory=trajectory, mp4=mp4, fps=fps, progress=progress)
         if panel or teleop:
             from dq_marine.agents.interactive.flights import offered_agents
-            from dq_marine.agents.interactive.flying import fly_interactively
-            from dq_marine.agents.interactive.recording import Recorder
 
             offer = partial(offered_agents, baselines=baselines, runs=runs, seed=plan.seed or 0)
-            with nullcontext() if record is None else Recorder(record) as recorder:
-                episode = fly_interactively(
-                    plan, offer, files, title=title, teleoperated=teleop, recorder=recorder
-                )
-            recorded = {} if recorder is None else recorder.written
+            episode, recorded = _fly_with_panel(
+                plan, offer, files, title=title, teleoperated=teleop, folder=record
+            )
         else:
             episode = fly_once(
                 plan,
@@ -204,3 +205,23 @@ def fly(
         console.print(f"Wrote {path}", soft_wrap=True)
     for identifier, episodes in recorded.items():
         console.print(f"Wrote {record}: dataset {identifier}, episodes: {episodes}", soft_wrap=True)
+
+
+def _fly_with_panel(
+    plan: FlightPlan,
+    offer: MakeAgents,
+    files: Outputs,
+    *,
+    title: str,
+    teleoperated: bool,
+    folder: Path | None,
+) -> tuple[Episode, dict[str, int]]:
+    """Return the last episode, and how many each dataset in the folder has, if one is given."""
+    from dq_marine.agents.interactive.flying import fly_interactively
+    from dq_marine.agents.interactive.recording import Recorder
+
+    with nullcontext() if folder is None else Recorder(folder) as recorder:
+        episode = fly_interactively(
+            plan, offer, files, title=title, teleoperated=teleoperated, recorder=recorder
+        )
+    return episode, {} if recorder is None else recorder.written

@@ -20,7 +20,7 @@ from dq_marine.cli.task_tables import (
     suiting_vehicles,
 )
 from dq_marine.envs.core.definition import TaskDefinition
-from dq_marine.envs.core.registry import registered_tasks, short_name
+from dq_marine.envs.core.registry import shipped_tasks, short_name
 from dq_marine.envs.core.start import START_OPTIONS
 from dq_marine.envs.scenarios.files import scenarios_of
 from dq_marine.report.leaderboard import Result, read_results
@@ -76,11 +76,6 @@ def task_pages(leaderboard: Path | None = None) -> dict[str, str]:
         for task in tasks
     }
     return {INDEX: index_page(tasks), **pages}
-
-
-def shipped_tasks() -> list[TaskDefinition]:
-    """Return the tasks of this package."""
-    return [task for task in registered_tasks() if task.id.startswith("dq_marine/")]
 
 
 def page_name(task: TaskDefinition) -> str:

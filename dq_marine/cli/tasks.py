@@ -67,7 +67,8 @@ def tasks(
 
 def _write_pages(folder: Path, pictures: bool) -> None:
     """Write the pages of all tasks, and their pictures if they are asked for; the folder's other files stay."""
-    from dq_marine.cli.task_pages import LEADERBOARD, picture_name, shipped_tasks, task_pages
+    from dq_marine.cli.task_pages import LEADERBOARD, picture_name, task_pages
+    from dq_marine.envs.core.registry import shipped_tasks
     from dq_marine.envs.scenarios.files import scenarios_of
     from dq_marine.util.files import with_folder, write_whole
 

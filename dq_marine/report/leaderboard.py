@@ -17,7 +17,7 @@ from dq_marine.agents.evaluation.evaluation import evaluate
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.checks import shown
 from dq_marine.envs.core.definition import TaskDefinition
-from dq_marine.envs.core.registry import registered_tasks, task_called
+from dq_marine.envs.core.registry import shipped_tasks, task_called
 from dq_marine.envs.scenarios.files import load_scenario, scenarios_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.report.interquartile import Interval, interquartile_interval
@@ -162,8 +162,7 @@ def chosen_tasks(names: Sequence[str]) -> list[TaskDefinition]:
     Raises:
         InvalidInputError: one is unknown.
     """
-    ours = (one for one in registered_tasks() if one.id.startswith("dq_marine/"))
-    return [task_called(name) for name in names] or list(ours)
+    return [task_called(name) for name in names] or list(shipped_tasks())
 
 
 def environment_of(entry: Entry) -> EnvironmentSettings:

@@ -16,7 +16,7 @@ SHAPE_DRAWS = 11
 UNEVENNESS = (0.0, 0.1, 0.04)
 """Of a wavy circle: largest second and third harmonic along each axis, over the radius; so its slope is never 0."""
 
-# A harmonic is largest where cosine and sine of both axes are: sqrt(2) sqrt(2) of one's size.
+# Cosine and sine of one size add up to sqrt(2) of it along an axis, and two axes in phase to sqrt(2) of that.
 STEEPEST = (1.0, 1.0, math.sqrt(2.0), 1.0 + 2.0 * (2.0 * UNEVENNESS[1] + 3.0 * UNEVENNESS[2]))
 """Largest level slope of each shape, over its radius: what its speed is told by."""
 

@@ -12,7 +12,7 @@ from dq_marine.charts import SeabedChart, seabed_chart
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.definition import EpisodeContext
 from dq_marine.envs.core.places import starting_depth
-from dq_marine.envs.core.suitability import cruising_speed
+from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_dive_under_way
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.common import SPEED_BOUND
 from dq_marine.task.ground_flight import GroundFlight
@@ -31,6 +31,16 @@ ROOM = 2.0
 QUIET = {"noise": 0.0, "dropout": 0.0, "current": 0.0}
 DISTURBED = {"noise": 0.02, "dropout": 0.2, "current": 0.3, "randomise": "default", "sensors": "auv"}
 """Keywords of levels: nothing in the way of a vehicle but the seabed, and everything."""
+
+
+OVER_GROUND: dict[str, Any] = {
+    "lasting": ("seabed",),
+    "unsuitable": unable_to_dive_under_way,
+    "vehicle": "remus100",
+    "control_period": paced,
+    "max_episode_steps": 2000,
+}
+"""What `define_task` is told of every task over ground."""
 
 
 @dataclass(frozen=True)

@@ -152,6 +152,11 @@ def registered_tasks() -> tuple[TaskDefinition, ...]:
     return tuple(_TASKS[name] for name in sorted(_TASKS))
 
 
+def shipped_tasks() -> tuple[TaskDefinition, ...]:
+    """Return the tasks of this package, in the order of their ids."""
+    return tuple(task for task in registered_tasks() if task.id.startswith("dq_marine/"))
+
+
 def tasks_suiting(vehicle: Vehicle) -> tuple[str, ...]:
     """Return the ids of the tasks that can be done with a vehicle."""
     return tuple(task.id for task in registered_tasks() if task.unsuitable(vehicle) is None)

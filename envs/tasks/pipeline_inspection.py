@@ -11,9 +11,8 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import bounded_vector, norm
 from dq_marine.checks import finite_number
-from dq_marine.envs.core import ground_settings as ground_flights
-from dq_marine.envs.core.ground_settings import DISTURBED, QUIET, GroundSettings, ground_flight
-from dq_marine.envs.core.suitability import paced, unable_to_dive_under_way
+from dq_marine.envs.core import ground_settings
+from dq_marine.envs.core.ground_settings import DISTURBED, OVER_GROUND, QUIET, GroundSettings, ground_flight
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Observed, define_task
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, observed_velocity
@@ -36,6 +35,7 @@ WAVES, SPANS, BEAMS = 4, 4, 9  # of the seabed; of the pipe, about a leg each; t
 AHEAD, ASIDE, ANGLE = 1.0, 1.5, math.radians(60.0)  # of the bow, what the detector sees [altitudes, rad]
 START_OFF, START_TURN, START_DRAWS = 0.2, math.radians(15.0), 4  # from place [altitudes] and course [rad]
 ACQUIRED, LOST = 1.0, 2.0  # span from which on errors count; episodes end farther off than this [altitudes]
+UNITS = {"course": "rad", "impact": "m/s"}  # of metrics, else m
 TOLERANCE, LEAST, ASKEW = 0.07, 0.1, math.radians(5.0)  # success: mean errors below [altitudes or m; rad]
 
 
@@ -54,8 +54,8 @@ class Settings(GroundSettings):
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
     leg = finite_number("leg", given.leg, least=1.0, most=1e3)
-    flown = ground_flights.over_ground(given, vehicle)
-    ground_flights.check_way(flown, "leg", SPANS * leg * vehicle.dimensions.length)
+    flown = ground_settings.over_ground(given, vehicle)
+    ground_settings.check_way(flown, "leg", SPANS * leg * vehicle.dimensions.length)
     return replace(
         flown,
         leg=leg,
@@ -77,7 +77,10 @@ class Parameters(NamedTuple):
 
 
 class Metrics(NamedTuple):
-    """Errors to starboard, up [m], in course [rad]; means since errors count; clearance [m]; speed in contact [m/s]."""
+    """To starboard of the pipe, height over its axis less the altitude [m], course over ground off the pipe's [rad].
+
+    Means of their magnitudes since errors count; clearance of the hull [m], speed in contact, or 0 [m/s].
+    """
 
     cross_track_error: float
     altitude_error: float
@@ -139,14 +142,15 @@ def make_formulas(grounds: Grounds) -> dict[str, Any]:
         here, soon = point_at(controls, parameter), point_at(controls, ahead)
         pipe = laid(ground, from_above(here.position_ned), from_above(here.slope_ned), own.radius)
         by, over = beside_pipe(pipe, motion, flight.keel), keel_over(ground, motion, flight.keel)
-        off, room = by.height - flight.altitude, min(over.clearance, by.clearance)
+        off, clearance = by.height - flight.altitude, min(over.clearance, by.clearance)
         errors = (abs(by.starboard), abs(off), abs(by.askew))
         tally = counted(memory.tally, parameter > ACQUIRED, errors, flight.period)
         cross, high, askew = means(tally, flight.period)
-        impact = select(room < 0.0, norm(motion.velocity.linear), 0.0)
+        impact = select(clearance < 0.0, norm(motion.velocity.linear), 0.0)
         ranges = fan(LaidPipe(ground, pipe), place, motion.attitude, flight.reach)
         seen = sight(motion, from_above(soon.position_ned), from_above(soon.slope_ned), own.ahead)
-        metrics = Metrics(by.starboard, off, by.askew, cross, high, askew, room, impact, parameter / SPANS)
+        share = parameter / SPANS
+        metrics = Metrics(by.starboard, off, by.askew, cross, high, askew, clearance, impact, share)
         return Memory(memory.ground, controls, View(ranges, seen), memory.errors, by.speed, tally, metrics)
 
     def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
@@ -159,7 +163,7 @@ def make_formulas(grounds: Grounds) -> dict[str, Any]:
     return {"start": start, "initial_memory": initial_memory, "update_memory": update_memory}
 
 
-formulas = ground_flights.formulas_by_ground(make_formulas, WAVES)
+formulas = ground_settings.formulas_by_ground(make_formulas, WAVES)
 start, initial_memory, update_memory = formulas(Settings()).values()
 
 
@@ -187,7 +191,7 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     """Return what an observation consists of."""
     length, high = vehicle.dimensions.length, settings.altitude * vehicle.dimensions.length
     return (
-        Observed("sonar_readings", "", BEAMS, 1.0, "free way over the reach, from port to starboard"),
+        Observed("sonar_readings", "", BEAMS, 1.0, "free way over the reach, port to starboard, middle down"),
         Observed("pipe_seen", "", 1, 1.0, "1 where the detector sees the pipe; else 0, as what it tells"),
         Observed("pipe_starboard", "m", 1, ASIDE * high, "how far to starboard of the bow the pipe is ahead"),
         Observed("pipe_bearing", "rad", 1, ANGLE, "where it leads to there, from the bow to starboard"),
@@ -214,9 +218,10 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
 
 def succeeded(own: Parameters, now: Situation) -> Any:
     """Whether the end of the pipe is reached, near enough to it from the second leg on, without contact."""
-    found = now.metrics
-    near = max(found.mean_cross_track_error, found.mean_altitude_error) < own.tolerance
-    return near & (found.mean_course_error < ASKEW) & (found.clearance >= 0.0) & (found.share_done >= 1.0)
+    metrics, most = now.metrics, own.tolerance
+    near = (metrics.mean_cross_track_error < most) & (metrics.mean_altitude_error < most)
+    straight, untouched = metrics.mean_course_error < ASKEW, metrics.clearance >= 0.0
+    return near & straight & untouched & (metrics.share_done >= 1.0)
 
 
 def terminated(own: Parameters, now: Situation) -> Any:
@@ -238,12 +243,8 @@ define_task(
     summary="Follow a pipe on an uneven seabed by sonar and a detector, in an unseen current.",
     draws=START_DRAWS + winding_draws(SPANS) + ground_draws(WAVES),
     sense_draws=BEAMS + 3,
-    lasting=("seabed",),
-    units={n: "rad" if "course" in n else "m/s" if "speed" in n else "m" for n in Metrics._fields[:-1]},
+    units={name: UNITS.get(name.split("_")[-2:][0], "m") for name in Metrics._fields[:-1]},
     tolerances={"cross_track_error": LEAST, "altitude_error": LEAST},
     levels={"easy": {"slope": 0.15, "turn": 15.0, **QUIET}, "medium": {"current": 0.2}, "hard": DISTURBED},
-    unsuitable=unable_to_dive_under_way,
-    vehicle="remus100",
-    control_period=paced,
-    max_episode_steps=2000,
+    **OVER_GROUND,
 )

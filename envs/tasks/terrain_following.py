@@ -11,9 +11,8 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.vector3 import bounded, bounded_vector
 from dq_marine.checks import finite_number
-from dq_marine.envs.core import ground_settings as ground_flights
-from dq_marine.envs.core.ground_settings import DISTURBED, QUIET, GroundSettings, ground_flight
-from dq_marine.envs.core.suitability import paced, unable_to_dive_under_way
+from dq_marine.envs.core import ground_settings
+from dq_marine.envs.core.ground_settings import DISTURBED, OVER_GROUND, QUIET, GroundSettings, ground_flight
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND, observed_velocity
@@ -48,8 +47,8 @@ class Settings(GroundSettings):
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
     track = finite_number("track", given.track, least=1.0, most=1e4)
-    flown = ground_flights.over_ground(given, vehicle)
-    ground_flights.check_way(flown, "track", track * vehicle.dimensions.length)
+    flown = ground_settings.over_ground(given, vehicle)
+    ground_settings.check_way(flown, "track", track * vehicle.dimensions.length)
     return replace(flown, track=track)
 
 
@@ -147,7 +146,7 @@ def make_formulas(grounds: Grounds) -> dict[str, Any]:
     return {"start": start, "initial_memory": initial_memory, "update_memory": update_memory}
 
 
-formulas = ground_flights.formulas_by_ground(make_formulas, WAVES)
+formulas = ground_settings.formulas_by_ground(make_formulas, WAVES)
 start, initial_memory, update_memory = formulas(Settings()).values()
 
 
@@ -236,12 +235,8 @@ define_task(
     summary="Keep an altitude over an uneven seabed that beams tell of, along a track, in an unseen current.",
     draws=START_DRAWS + ground_draws(WAVES),
     sense_draws=BEAMS,
-    lasting=("seabed",),
     units={name: "m/s" if "speed" in name else "m" for name in Metrics._fields[:-1]},
     tolerances={"altitude_error": LEAST},
     levels={"easy": {"slope": 0.3, **QUIET}, "medium": {"current": 0.2}, "hard": {"slope": 0.8, **DISTURBED}},
-    unsuitable=unable_to_dive_under_way,
-    vehicle="remus100",
-    control_period=paced,
-    max_episode_steps=2000,
+    **OVER_GROUND,
 )

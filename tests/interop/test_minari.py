@@ -1,14 +1,7 @@
 """Minari records data sets with infos."""
 
-import os
-import subprocess
-import sys
-from importlib.util import find_spec
-from pathlib import Path
+from support.minari_child import needs_minari, printed_by
 
-import pytest
-
-NEEDED = ("minari", "h5py", "jax")
 RECORDED = """
 import gymnasium as gym
 import minari
@@ -49,22 +42,6 @@ print("recorded", sorted(infos[0]))
 """
 
 
-@pytest.mark.skipif(not all(map(find_spec, NEEDED)), reason="needs the extra `interop`")
+@needs_minari
 def test_infos_are_recorded_and_read_again(tmp_path):
-    """In a process of its own: Minari imports JAX, which does not like a process to fork."""
-    root = Path(__file__).parents[2]
-    variables = os.environ | {
-        "MINARI_DATASETS_PATH": str(tmp_path),
-        "JAX_PLATFORMS": "cpu",
-        "PYTHONPATH": str(root),
-    }
-    child = subprocess.run(
-        [sys.executable, "-c", RECORDED],
-        env=variables,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert child.returncode == 0, child.stderr
-    assert "position_error" in child.stdout
+    assert "position_error" in printed_by(RECORDED, datasets=str(tmp_path))

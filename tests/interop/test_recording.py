@@ -1,14 +1,9 @@
 """What a person flies is read back from Minari's datasets as it was flown, one dataset for each environment."""
 
-import os
-import subprocess
-import sys
-from importlib.util import find_spec
 from pathlib import Path
 
-import pytest
+from support.minari_child import needs_minari, printed_by
 
-NEEDED = ("minari", "h5py", "jax")
 FLOWN = """
 import os
 import sys
@@ -87,23 +82,6 @@ print("as it was flown")
 """
 
 
-@pytest.mark.skipif(not all(map(find_spec, NEEDED)), reason="needs the extra `interop`")
+@needs_minari
 def test_what_a_person_flew_is_read_back(tmp_path: Path) -> None:
-    """In a process of its own: Minari imports JAX, which does not like a process to fork."""
-    root = Path(__file__).parents[2]
-    found = [str(root), str(root / "tests"), *filter(None, [os.environ.get("PYTHONPATH")])]
-    variables = os.environ | {
-        "MINARI_DATASETS_PATH": "elsewhere",
-        "JAX_PLATFORMS": "cpu",
-        "PYTHONPATH": os.pathsep.join(found),
-    }
-    child = subprocess.run(
-        [sys.executable, "-c", FLOWN, str(tmp_path / "flights")],
-        env=variables,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert child.returncode == 0, child.stderr
-    assert "as it was flown" in child.stdout
+    assert "as it was flown" in printed_by(FLOWN, str(tmp_path / "flights"), datasets="elsewhere")

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from viewer.devtools import Page, element, open_page
-from viewer.samples import ROV, snapshot
+from viewer.panels import live_panel, panel_page
+from viewer.samples import snapshot
 
 from dq_marine.viewer import LiveViewer
 from dq_marine.viewer.controls import (
@@ -66,17 +67,13 @@ GROUPS = (
 
 @pytest.fixture(scope="module")
 def viewer() -> Iterator[LiveViewer]:
-    with LiveViewer(ROV, title="An ROV") as shown:
-        shown.draw(snapshot(time=1.0))
-        shown.show_controls(GROUPS)
+    with live_panel(GROUPS) as shown:
         yield shown
 
 
 @pytest.fixture(scope="module")
 def page(viewer: LiveViewer) -> Iterator[Page]:
-    with open_page(viewer.url, width=1000, height=700) as shown:
-        shown.wait_until("document.querySelectorAll('#panel-controls details').length === 2")
-        shown.wait_until("viewer.scene_tree.find(['world', 'vehicle']).object.children.length > 0")
+    with panel_page(viewer, GROUPS) as shown:
         yield shown
 
 

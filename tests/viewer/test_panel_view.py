@@ -8,7 +8,8 @@ from dataclasses import replace
 
 import pytest
 from numpy.testing import assert_allclose
-from viewer.devtools import Page, element, open_page
+from viewer.devtools import Page, element
+from viewer.panels import live_panel, panel_page
 from viewer.samples import ROV, snapshot, yawed
 
 from dq_marine.viewer import LiveViewer
@@ -18,21 +19,18 @@ pytestmark = pytest.mark.browser
 
 PATIENCE = 60.0
 LONGER = replace(ROV, length=3.0 * ROV.length)
+GROUPS = (Group("Flight", (Button("step", "Step"),)),)
 
 
 @pytest.fixture(scope="module")
 def viewer() -> Iterator[LiveViewer]:
-    with LiveViewer(ROV, title="An ROV") as shown:
-        shown.draw(snapshot(time=1.0))
-        shown.show_controls((Group("Flight", (Button("step", "Step"),)),))
+    with live_panel(GROUPS) as shown:
         yield shown
 
 
 @pytest.fixture(scope="module")
 def page(viewer: LiveViewer) -> Iterator[Page]:
-    with open_page(viewer.url, width=1000, height=700) as shown:
-        shown.wait_until("document.querySelectorAll('#panel-controls details').length === 1")
-        shown.wait_until("viewer.scene_tree.find(['world', 'vehicle']).object.children.length > 0")
+    with panel_page(viewer, GROUPS) as shown:
         yield shown
 
 

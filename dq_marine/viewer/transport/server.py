@@ -38,11 +38,11 @@ from dq_marine.viewer.transport.bridge import (
     WebSocketHandler,
     ZMQWebSocketBridge,
 )
+from dq_marine.viewer.transport.loopback import LOOPBACK
 from dq_marine.viewer.transport.pages import CAPTURE_PAGE, LIVE_PAGE
 from dq_marine.viewer.transport.panel_socket import POLICY_VIOLATION, PanelHub, PanelSocket
 from dq_marine.viewer.transport.picture import is_picture
 
-LOOPBACK = "127.0.0.1"
 LOOPBACK_NAMES = r"^(127\.0\.0\.1|localhost)$"
 SHOW_PANEL, TAKE_WORDS = "show_panel", "take_words"
 """Messages about the panels of pages: what they are to show, and a question for what was said by them."""

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.libraries import drawing_library, meshcat_page_folder
+from dq_marine.viewer.transport.loopback import LOOPBACK
 from dq_marine.viewer.transport.messages import CAPTURE_IMAGE, TAKE_WORDS, Message
 from dq_marine.viewer.transport.picture import pixels_of
 
-LOOPBACK = "127.0.0.1"
 ANY_FREE_PORT = 0
 
 START_TIMEOUT = 30.0

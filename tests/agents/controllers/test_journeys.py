@@ -16,6 +16,7 @@ from dq_marine.agents.controllers.guidance import (
     no_turn_leads_to,
     wrapped,
 )
+from dq_marine.agents.evaluation.episodes import fly_episode
 from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.quaternion import rotate, rotate_inverse
 from dq_marine.envs.core.suitability import cruising_speed, paced, speed_ahead
@@ -38,13 +39,8 @@ def test_the_baseline_does_the_task_in_currents(task, name):
     controller = controller_for(env)
     assert type(controller).__name__ == name
     for seed in range(5):
-        observation, info = env.reset(seed=seed)
-        controller.reset(env)
-        done = False
-        while not done:
-            observation, _, terminated, truncated, info = env.step(controller.act(observation))
-            done = terminated or truncated
-        assert info["is_success"], f"seed {seed}: {info}"
+        episode = fly_episode(env, controller, seed=seed)
+        assert episode.success, f"seed {seed}: {episode.measured}"
 
 
 def test_an_agent_that_drifts_does_none_of_them():

@@ -10,6 +10,7 @@ import pytest
 
 from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.controllers.reading import parts_reader
+from dq_marine.agents.evaluation.episodes import fly_episode
 from dq_marine.charts import SeabedChart
 from dq_marine.envs.core.shared_memory import parameters_of, task_memory
 from dq_marine.errors import InvalidInputError
@@ -152,13 +153,5 @@ def test_lanes_over_a_chart_have_the_bits_of_single_environments():
 @pytest.mark.sweep
 def test_the_controller_follows_the_terrain_of_a_chart():
     env = gym.make(TERRAIN, **{"seabed": SEABED, **QUIET})
-    controller, succeeded = controller_for(env), []
-    for seed in range(4):
-        observation, info = env.reset(seed=seed)
-        controller.reset(env)
-        done = False
-        while not done:
-            observation, _, terminated, truncated, info = env.step(controller.act(observation))
-            done = terminated or truncated
-        succeeded.append(bool(info["is_success"]))
-    assert all(succeeded)
+    controller = controller_for(env)
+    assert all(fly_episode(env, controller, seed=seed).success for seed in range(4))

@@ -9,6 +9,7 @@ from support.sweeps import sweep
 
 from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.controllers.formations import FormationController
+from dq_marine.agents.evaluation.episodes import fly_episode
 from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.backend.packing import pack
@@ -157,10 +158,5 @@ def test_the_baseline_keeps_its_place(vehicle):
     controller = controller_for(env)
     assert isinstance(controller, FormationController)
     for seed in range(3):
-        observation, info = env.reset(seed=seed)
-        controller.reset(env)
-        done = False
-        while not done:
-            observation, _, terminated, truncated, info = env.step(controller.act(observation))
-            done = terminated or truncated
-        assert info["is_success"], f"seed {seed}: {info}"
+        episode = fly_episode(env, controller, seed=seed)
+        assert episode.success, f"seed {seed}: {episode.measured}"
