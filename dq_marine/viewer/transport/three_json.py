@@ -121,19 +121,6 @@ def polyline(path: str, points: FloatArray, color: int, user_data: Mapping[str, 
     return _object(path, "Line", _geometry(position=points), material, user_data)
 
 
-def point_cloud(path: str, points: FloatArray, color: int, size: float) -> Json:
-    """Square specks of `size` [m] at points of shape (n, 3) [m]."""
-    material = {
-        "type": "PointsMaterial",
-        "color": color,
-        "size": size,
-        "transparent": True,
-        "opacity": 0.6,
-        "depthWrite": False,
-    }
-    return _object(path, "Points", _geometry(position=points), material)
-
-
 def bare_object(kind: str, **properties: Any) -> Json:
     """An object without a surface, such as a lamp or a camera."""
     return {"metadata": METADATA, "object": {"uuid": kind, "type": kind, **properties}}

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from dq_marine.physics.waves.sea import Sea
-from dq_marine.viewer.meshes import Mesh, flat_polygon, grid_triangles, joined
+from dq_marine.viewer.meshes import Mesh, flat_polygon, grid_triangles, joined, octahedron
 from dq_marine.viewer.snapshot import FloatArray, Shape
 from dq_marine.viewer.transport.messages import Message, set_object
-from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface, point_cloud, rgb, surface
+from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface, rgb, surface
 from dq_marine.viewer.world.water import Surroundings
 
 FLOOR = "/world/floor"
@@ -30,6 +30,7 @@ SPECK = 0xD8F4FF
 BLACK = 0x000000
 
 SAND_LOOK = Look(lit=False, both_sides=True)
+SPECK_LOOK = Look(opacity=0.6, lit=False)
 SHADOW_LOOK = Look(opacity=0.25, lit=False, both_sides=True)
 
 CELLS_PER_PERIOD = 10
@@ -37,6 +38,7 @@ CELLS_PER_STRONG_LINE = 5
 PERIODS_EACH_WAY = 3
 DIVISIONS_PER_PERIOD = 6
 SPECKS_PER_BLOCK = 60
+SPECK_IN_BLOCKS = 0.0012
 
 FINE_STEPS, FINE_REACH, STRETCH = 52, 0.55, 1.3
 """Of the mesh of a sea with waves: equal steps each way from the vehicle's origin, how far they go together [lengths of
@@ -137,11 +139,17 @@ def draw_shadow(shape: Shape) -> list[Message]:
 
 
 def draw_specks(scale: SeaScale) -> list[Message]:
-    """Specks that hang in the water: they show motion where nothing else is near."""
+    """Specks that hang in the water: they show motion where nothing else is near.
+
+    They are surfaces, as all that is drawn: next to points, Chromium's renderer on the processor lights the vehicle now
+    with and now without the sun, so that two pictures of one state differ.
+    """
     block = np.random.default_rng(seed=1).uniform(0.0, 1.0, (SPECKS_PER_BLOCK, 3))
     corners = np.array(np.meshgrid(*[(-1.0, 0.0)] * 3)).reshape(3, -1).T
     places = scale.speck_block * (block[None, :, :] + corners[:, None, :]).reshape(-1, 3)
-    return [set_object(SPECKS, point_cloud(SPECKS, places, SPECK, 0.002 * scale.speck_block))]
+    speck = octahedron(SPECK_IN_BLOCKS * scale.speck_block)
+    specks = joined([Mesh(speck.vertices + place, speck.normals, speck.triangles) for place in places])
+    return [set_object(SPECKS, painted_surface(SPECKS, [Painted(specks, SPECK)], SPECK_LOOK))]
 
 
 def nearest_period(coordinate: float, period: float) -> float:
