@@ -10,8 +10,12 @@ from dq_marine.envs.scenarios.environment import make_scenario
 from dq_marine.envs.scenarios.model import Scenario
 from dq_marine.util.extras import extra_needed
 
-SHARE, FRAMES, COLOURS = 0.45, 9, 96
-"""How far on in its episode the vehicle is drawn, of how many moments its trail is, and how many colours there are."""
+SHARE, FRAMES = 0.45, 9
+"""How far on in its episode the vehicle is drawn, and of how many moments its trail is."""
+
+COLOURS, REFINEMENTS = 96, 3
+"""How many colours there are, and how often they are moved to the mean of what they stand for: without it small bright
+things, such as the arrow to the bow, take the colour of what is larger."""
 
 
 def scenario_picture(scenario: Scenario) -> bytes:
@@ -40,5 +44,5 @@ def scenario_picture(scenario: Scenario) -> bytes:
         env.close()
     file = io.BytesIO()
     picture = Image.fromarray(pixels)  # type: ignore[arg-type]
-    picture.quantize(COLOURS, dither=Image.Dither.NONE).save(file, "png", optimize=True)
+    picture.quantize(COLOURS, kmeans=REFINEMENTS, dither=Image.Dither.NONE).save(file, "png", optimize=True)
     return file.getvalue()
