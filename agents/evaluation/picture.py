@@ -6,9 +6,12 @@ import io
 
 from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.evaluation.episodes import fly_episode
+from dq_marine.envs.core.marine_env import MarineEnv
+from dq_marine.envs.core.view import shape_of
 from dq_marine.envs.scenarios.environment import make_scenario
 from dq_marine.envs.scenarios.model import Scenario
 from dq_marine.util.extras import extra_needed
+from dq_marine.viewer.offscreen import OffscreenViewer
 
 SHARE, FRAMES = 0.45, 9
 """How far on in its episode the vehicle is drawn, and of how many moments its trail is."""
@@ -27,22 +30,21 @@ def scenario_picture(scenario: Scenario) -> bytes:
     """
     with extra_needed("a picture", "render"):
         from PIL import Image
-    env = make_scenario(scenario, render_mode="rgb_array")
-    try:
-        agent = controller_for(env)
-        whole = fly_episode(env, agent, seed=scenario.seed, options=dict(scenario.reset))
-        last = int(SHARE * len(whole.rewards))
-        drawn = {last * number // (FRAMES - 1) for number in range(FRAMES)}
-        observation, _ = env.reset()
-        agent.reset(env)
+    env = make_scenario(scenario)
+    agent = controller_for(env)
+    inner: MarineEnv = env.unwrapped  # type: ignore[assignment]
+    whole = fly_episode(env, agent, seed=scenario.seed, options=dict(scenario.reset))
+    last = int(SHARE * len(whole.rewards))
+    drawn = {last * number // (FRAMES - 1) for number in range(FRAMES)}
+    observation, _ = env.reset()
+    agent.reset(env)
+    with OffscreenViewer(shape_of(inner.vehicle), smooth=True) as viewer:
         for period in range(last + 1):
             if period in drawn:
-                pixels = env.render()
+                pixels = viewer.render(inner.snapshot())
             if period < last:
                 observation = env.step(agent.act(observation))[0]
-    finally:
-        env.close()
     file = io.BytesIO()
-    picture = Image.fromarray(pixels)  # type: ignore[arg-type]
+    picture = Image.fromarray(pixels)
     picture.quantize(COLOURS, kmeans=REFINEMENTS, dither=Image.Dither.NONE).save(file, "png", optimize=True)
     return file.getvalue()

@@ -18,11 +18,11 @@ from dq_marine.viewer.snapshot import FloatArray
 Profile = Sequence[tuple[float, float]]
 """Points (distance from the axis, place along the axis) [m]."""
 
-SECTORS = 20
+SECTORS = 16
 """Facets around a body of revolution."""
 
-BLOCK_RINGS = 14
-BLOCK_SECTORS = 32
+BLOCK_RINGS = 10
+BLOCK_SECTORS = 24
 
 
 @dataclass(frozen=True, eq=False)

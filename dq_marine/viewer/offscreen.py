@@ -35,6 +35,7 @@ class OffscreenViewer(Closable):
         *,
         floor_depth: float | None = None,
         caption: bool = True,
+        smooth: bool = False,
     ) -> None:
         """Start the viewer's server and a Chromium.
 
@@ -44,6 +45,7 @@ class OffscreenViewer(Closable):
             height: of the pictures [pixels].
             floor_depth: depth of the sea floor [m]; None puts one below vehicle and goal.
             caption: write simulated time and depth in a corner of the picture.
+            smooth: smooth the edges of things, which takes nearly twice as long: for videos and pictures to look at.
 
         Raises:
             MissingDependencyError: a library of the viewer, or Chromium, is not installed.
@@ -56,7 +58,7 @@ class OffscreenViewer(Closable):
         floor_depth = checked_floor_depth(floor_depth)
         self._image = drawing_library("PIL.Image")
         find_chromium()
-        self._size = (width, height)
+        self._size, self._smooth = (width, height), smooth
         self._caption, self._afloat = caption, shape.floats
         self._timeout = FIRST_PICTURE_TIMEOUT
         try:
@@ -101,7 +103,8 @@ class OffscreenViewer(Closable):
 
     def _open_browser(self, web_url: str) -> None:
         width, height = self._size
-        self._browser = HeadlessBrowser(f"{web_url}capture?width={width}&height={height}", width, height)
+        address = f"{web_url}capture?width={width}&height={height}&smooth={self._smooth:d}"
+        self._browser = HeadlessBrowser(address, width, height)
 
     def _check_browser(self) -> None:
         if not self._browser.running:

@@ -72,7 +72,9 @@ def save_video(
     count = picture_count(snapshots, rate)
     with (
         replacing_file(target) as temporary,
-        OffscreenViewer(shape, width, height, floor_depth=checked_floor_depth(floor_depth)) as viewer,
+        OffscreenViewer(
+            shape, width, height, floor_depth=checked_floor_depth(floor_depth), smooth=True
+        ) as viewer,
         Encoder(temporary, width, height, rate) as encoder,
     ):
         for number, snapshot in enumerate(at_even_times(snapshots, rate), start=1):

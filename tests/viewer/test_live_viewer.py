@@ -169,3 +169,12 @@ def test_the_page_says_when_the_simulation_has_ended() -> None:
             viewer.close()
             page.wait_until("document.getElementById('notice').textContent.includes('ended')")
             assert page.evaluate(CLOCK_TEXT) == "5.0 s"
+
+
+def test_edges_are_smooth_where_a_graphics_card_draws_or_the_address_asks(
+    viewer: LiveViewer, page: Page
+) -> None:
+    smoothed = "viewer.renderer.getContext().getContextAttributes().antialias"
+    assert page.evaluate(smoothed) is False  # the processor draws here
+    with open_page(f"{viewer.url}?smooth=1") as asked:
+        assert asked.evaluate(smoothed) is True

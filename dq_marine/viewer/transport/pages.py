@@ -148,12 +148,16 @@ SERVED_MESHCAT = '<script src="main.min.js"></script>\n'
 PANEL_STYLE = f"<style>{_file('panel.css')}</style>\n"
 LEGEND = f"<style>{_file('legend.css')}</style>\n{_file('legend.html')}"
 
+EDGES = _inline(_file("edges.js"))
+"""Before a page's viewer is made."""
+
 SEA = _inline(_file("sea.js")) + _inline(_file("wake.js"))
 
 LIVE_PAGE = _page(
     "dq-marine",
     CAPTION.replace("$title", "") + LEGEND + PANEL_STYLE + _file("panel.html"),
     SERVED_MESHCAT,
+    EDGES,
     _inline(LIVE_SCRIPT + CAPTION_SCRIPT),
     SEA,
     _inline(_file("hidden.js")),
@@ -168,6 +172,7 @@ CAPTURE_PAGE = _page(
     "dq-marine",
     "",
     SERVED_MESHCAT,
+    EDGES,
     _inline(_file("capture.js")),
     SEA,
     _inline(_file("hidden.js")),
@@ -184,6 +189,7 @@ REPLAY_PAGE = Template(
         CAPTION + CONTROLS + LEGEND.replace("$", "$$"),
         _inline("$meshcat"),
         _inline(REPLAY_DATA_SCRIPT),
+        EDGES,
         _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
         SEA,
         _inline(_file("pace.js")),
