@@ -310,15 +310,16 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
 
     def snapshot(self) -> Snapshot:
         """Return what a viewer draws now."""
-        episode, motion = self._running("snapshot"), self.motion
+        episode, of_step = self._running("snapshot"), self._parameters
+        motion = self._motion(of_step, episode.body)
         parameters, memory = parameters_of(self).task, task_memory(self)
         goal = self.definition.goal(parameters, memory)
         return Snapshot(
             time=self.time,
             position_ned=np.array(motion.position_ned),
             quaternion_body_to_ned=np.array(motion.attitude),
-            wrench_body=self.action_mapping.wrench_body(self.flown_vehicle, self._parameters, episode),
-            thrusts=self.action_mapping.thrusts(self.flown_vehicle, self._parameters, episode),
+            wrench_body=self.action_mapping.wrench_body(self.flown_vehicle, of_step, episode),
+            thrusts=self.action_mapping.thrusts(self.flown_vehicle, of_step, episode),
             current_ned=episode.current_ned,
             wind_ned=self.wind_ned,
             goal_position_ned=None if goal is None else np.array(goal.position_ned),
