@@ -28,6 +28,7 @@ from hostile.making import (
     drawn_scene,
     drawn_sea,
     drawn_settings,
+    drawn_task_environment,
     drawn_vector_environment,
     drawn_vehicle,
     drawn_vehicle_file,
@@ -70,6 +71,7 @@ DOORS: dict[str, Door] = {
     "env": Door(drawn_env_call, env_target),
     "vector env": Door(drawn_vector_call, vector_target),
     **{name: Door(functools.partial(drawn_making, name=name)) for name in MADE},
+    "task environment": Door(drawn_task_environment),
 }
 """By name; a case goes through one of them."""
 

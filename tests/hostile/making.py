@@ -6,13 +6,17 @@ import functools
 import json
 import tempfile
 from collections.abc import Callable
+from dataclasses import MISSING, Field, fields
 from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
 
 import dq_marine
+from dq_marine.envs.core.definition import TaskDefinition
+from dq_marine.envs.core.making import make_single
 from dq_marine.envs.core.marine_env import MarineEnv
+from dq_marine.envs.core.registry import shipped_tasks
 from dq_marine.vehicles import Vehicle, load_vehicle
 from hostile.keywords import ENVIRONMENT, ID, SCENE, constant, number, one_of, vector3
 from hostile.texts import changed_text
@@ -27,6 +31,23 @@ def drawn_scene(rng: Rng) -> Callable[[], Any]:
 def drawn_environment(rng: Rng) -> Callable[[], Any]:
     given = arguments(rng, ENVIRONMENT)
     return lambda: MarineEnv(ID, **given)
+
+
+def drawn_task_environment(rng: Rng) -> Callable[[], Any]:
+    """An environment of any task by the task's own keywords, valid ones being its defaults and those of its levels."""
+    tasks = shipped_tasks()
+    task = tasks[rng.integers(len(tasks))]
+    own = {one.name: one_of(*valid_values(task, one)) for one in fields(task.settings)}
+    given = arguments(
+        rng, own | {"level": one_of(None, *task.levels), "observation": one_of("numbers", "pixels")}
+    )
+    return lambda: make_single(task.id, **given)
+
+
+def valid_values(task: TaskDefinition, keyword: Field[Any]) -> list[Any]:
+    own = keyword.default if keyword.default is not MISSING else keyword.default_factory()  # type: ignore[misc]
+    levels = [task.at_level(name, {}) for name in task.levels]
+    return [own, *(level[keyword.name] for level in levels if keyword.name in level)]
 
 
 def drawn_vector_environment(rng: Rng) -> Callable[[], Any]:
