@@ -13,6 +13,8 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 
+from dq_marine.viewer import find_chromium
+
 ROOT = Path(__file__).parents[2]
 
 pytestmark = [
@@ -116,3 +118,26 @@ def test_pages_are_made_of_readme_and_notebook(site: Path) -> None:
     assert "env.unwrapped.replay" in re.sub(
         r"<[^>]+>", "", (site / "tutorials/first_steps.html").read_text(encoding="utf-8")
     )
+
+
+@pytest.mark.browser
+def test_search_answers_in_a_page_that_is_opened_as_a_file(site: Path, tmp_path: Path) -> None:
+    result = subprocess.run(
+        [
+            str(find_chromium()),
+            *(
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--no-first-run",
+                "--disable-background-networking",
+            ),
+            *(f"--user-data-dir={tmp_path}", "--virtual-time-budget=20000", "--dump-dom"),
+            f"{(site / 'index.html').as_uri()}?q=docking",
+        ],
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
+    assert "tasks/Docking.html" in result.stdout.split("md-search-result__meta")[-1].split("</ol>")[0]
+    assert "matching documents" in result.stdout
