@@ -10,7 +10,7 @@ INSTALL := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-versi
 # where a shell asks for none to be kept.
 KEEP_BYTECODE := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode
 
-.PHONY: demo test lint interop clean help
+.PHONY: demo test lint docs interop clean help
 
 help:  ## list the commands
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/'
@@ -28,8 +28,12 @@ lint: $(VENV)/.test  ## check style, types and the direction of imports
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
 
-interop: $(VENV)/.test  ## install what tests/interop needs besides: TorchRL, Minari
-	@$(INSTALL) --editable ".[render,agents,bem,dev,interop]"
+docs: $(VENV)/.docs  ## build the documentation site, build/site/index.html; a warning is an error
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --config-file docs/site/mkdocs.yml
+
+interop: $(VENV)/.test  ## install what CI tests besides: TorchRL, Minari, the documentation site
+	@$(INSTALL) --editable ".[render,agents,bem,dev,interop,docs]"
+	@touch $(VENV)/.docs
 
 clean:  ## remove the virtual environment and what the commands wrote
 	rm -rf $(VENV) build dist demo *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
@@ -46,4 +50,9 @@ $(VENV)/.demo: pyproject.toml constraints.txt | $(BIN)/python
 $(VENV)/.test: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "dq-marine: installing everything, torch included (one to three minutes)"
 	@$(INSTALL) --editable ".[render,agents,bem,dev]"
+	@touch $@ $(VENV)/.demo
+
+$(VENV)/.docs: pyproject.toml constraints.txt | $(BIN)/python
+	@echo "dq-marine: installing the simulator, its viewer and MkDocs (about a minute)"
+	@$(INSTALL) --editable ".[docs]"
 	@touch $@ $(VENV)/.demo
