@@ -44,7 +44,7 @@ class DisturbanceObserver:
 
     def ahead(self, turns: Array) -> Array:
         """Return the estimate in the goal's axes once these have turned by angles [rad], (n,), shape (n, 6)."""
-        return np.array([_turned_back(self._estimate_in_goal, angle) for angle in turns.tolist()])
+        return _turned_back(self._estimate_in_goal, turns)
 
     def given(self, reading: Reading, wrench_body: Array) -> None:
         """Keep what the vehicle is given in the period that begins at a reading, shape (6,) [N, N m]."""
@@ -55,8 +55,8 @@ class DisturbanceObserver:
         if self._before is None:
             return
         before, wrench = self._before
-        turn = self._period * float(reading.goal_velocity_body[3:] @ reading.goal_to_body[:, 2])
-        kept = _turned_back(self._estimate_in_goal, turn)
+        turn = self._period * reading.goal_velocity_body[3:] @ reading.goal_to_body[:, 2]
+        kept = _turned_back(self._estimate_in_goal, np.array([turn]))[0]
         velocity = 0.5 * (before.velocity_body + reading.velocity_body)
         down = 0.5 * (before.goal_to_body[:, 2] + reading.goal_to_body[:, 2])
         change = (reading.velocity_body - before.velocity_body) / self._period
@@ -71,7 +71,11 @@ def both_halves(rotation: Array, vector: Array) -> Array:
     return np.concatenate([vector[..., :3] @ rotation.T, vector[..., 3:] @ rotation.T], axis=-1)
 
 
-def _turned_back(vector: Array, angle: float) -> Array:
-    """Return a 6-vector in axes that have turned about z by an angle [rad]."""
-    c, s = math.cos(angle), math.sin(angle)
-    return both_halves(np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]), vector)
+def _turned_back(vector: Array, angles: Array) -> Array:
+    """Return a 6-vector in axes that have turned about z by angles [rad], (n,), shape (n, 6)."""
+    c, s = np.cos(angles), np.sin(angles)
+    turned = np.empty((len(angles), 6))
+    for first in (0, 3):
+        x, y, z = vector[first : first + 3].tolist()
+        turned[:, first], turned[:, first + 1], turned[:, first + 2] = c * x + s * y, c * y - s * x, z
+    return turned

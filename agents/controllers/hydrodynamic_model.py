@@ -65,7 +65,7 @@ class HydrodynamicModel:
         momentum = velocity @ self.mass_matrix
         b, a = momentum[..., :3], momentum[..., 3:]
         v, w = velocity[..., :3], velocity[..., 3:]
-        inertial = np.concatenate([np.cross(b, w), np.cross(a, w) + np.cross(b, v)], axis=-1)
+        inertial = np.concatenate([_cross(b, w), _cross(a, w) + _cross(b, v)], axis=-1)
         damping = velocity @ self._linear.T + _twice(self._quadratic, np.abs(velocity), velocity)
         total: Array = inertial - damping - _twice(self._signed, velocity, velocity)
         return total
@@ -92,7 +92,13 @@ class HydrodynamicModel:
 
     def restoring(self, down_body: Array) -> Array:
         """Return g of the direction of down, a unit vector of shape (3,): shape (6,) [N, N m]."""
-        return np.concatenate([self._net_weight * down_body, np.cross(self._arm, down_body)])
+        return np.concatenate([self._net_weight * down_body, _cross(self._arm, down_body)])
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """Return a x b, shape (..., 3)."""
+    product: Array = np.einsum("ijk,...j,...k->...i", LEVI_CIVITA, a, b)
+    return product
 
 
 def _twice(tensor: Array, speed: Array, velocity: Array) -> Any:
