@@ -54,14 +54,14 @@ def make_agents(
     """Return agents by name; a run goes by its folder's.
 
     Args:
-        baselines: names among `dq_marine.agents.controllers.baselines.BASELINES`.
+        baselines: names among `dq_marine.agents.controllers.baselines.AGENTS`.
         runs: folders of training runs.
         env: what they are to fly.
         seed: of agents that draw.
 
     Raises:
         InvalidInputError: a name is unknown or given twice, or a folder holds no trained run.
-        MissingDependencyError: a run is named, and the libraries to load it are not installed.
+        MissingDependencyError: the libraries that a run or a controller needs are not installed.
     """
     agents = {name: make_baseline(name, env, seed) for name in baselines}
     for run in runs:

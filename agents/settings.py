@@ -92,6 +92,30 @@ class AutopilotSettings(Settings):
     slowest_of_heavy: Fraction
 
 
+class TrajectorySettings(Settings):
+    """Tracking by LQR and by MPC: deviations that count as much as the effort, and what the controllers need besides.
+
+    Attributes:
+        position: deviation [m].
+        attitude: deviation [rad].
+        linear_velocity: deviation [m/s].
+        angular_velocity: deviation [rad/s].
+        effort: wrench beside that of the reference, over the limits.
+        disturbance_time: in which the estimated disturbance follows what the model lacks [s].
+        horizon: of the MPC [s].
+        iterations: of the MPC's solver in a control period, at most.
+    """
+
+    position: Positive
+    attitude: Positive
+    linear_velocity: Positive
+    angular_velocity: Positive
+    effort: Positive
+    disturbance_time: Positive
+    horizon: Annotated[float, Field(gt=0.0, le=2.0)]
+    iterations: Count
+
+
 class AvoidanceSettings(Settings):
     """The choice of a way among obstacles; costs are in radians off the course to the goal.
 

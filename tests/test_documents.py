@@ -9,7 +9,8 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = [
-    ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/theory.md")
+    ROOT / name
+    for name in ("README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/theory.md", "docs/tracking.md")
 ]
 BASES = (ROOT, ROOT / "dq_marine", ROOT / "docs", ROOT / "tests")
 MADE_BY_COMMANDS = ("demo/", "runs/")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, ClassVar, Protocol, Self
 
 import gymnasium as gym
@@ -25,7 +26,7 @@ from dq_marine.envs.core.observation import Observation
 from dq_marine.errors import InvalidInputError
 
 BASELINES = ("controller", "zero", "random")
-"""Names that `make_baseline` takes."""
+"""Agents that fly any task, or nearly: "controller" is of the kind that suits a task."""
 
 
 class Agent(Protocol):
@@ -107,15 +108,37 @@ class RandomAgent:
         return self._random.uniform(-1.0, 1.0, self._axes).astype(np.float32)
 
 
+def _lqr(env: gym.Env[Any, Any]) -> Agent:
+    from dq_marine.agents.controllers.trajectory_control import LQRController  # here: it imports SciPy
+
+    return LQRController.for_env(env)
+
+
+def _mpc(env: gym.Env[Any, Any]) -> Agent:
+    from dq_marine.agents.controllers.mpc import MPCController  # here: it imports SciPy and OSQP
+
+    return MPCController.for_env(env)
+
+
+MODEL_BASED: dict[str, Callable[[gym.Env[Any, Any]], Agent]] = {"lqr": _lqr, "mpc": _mpc}
+"""Agents that track a point that moves, with a model of a vehicle; they need the extra `mpc`."""
+
+AGENTS = (*BASELINES, *MODEL_BASED)
+"""Names that `make_baseline` takes."""
+
+
 def make_baseline(name: str, env: gym.Env[Any, Any], seed: int = 0) -> Agent:
-    """Return one of `BASELINES` for an environment.
+    """Return one of `AGENTS` for an environment.
 
     Raises:
         InvalidInputError: the name is unknown, or the controller cannot fly in this environment.
+        MissingDependencyError: a library that the controller needs is not installed.
     """
     axes = int(np.prod(env.action_space.shape or ()))
-    if one_of("agent", name, BASELINES) == "controller":
+    if one_of("agent", name, AGENTS) == "controller":
         return controller_for(env)
+    if name in MODEL_BASED:
+        return MODEL_BASED[name](env)
     return ZeroAgent(axes) if name == "zero" else RandomAgent(axes, seed)
 
 

@@ -12,12 +12,12 @@ import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.choice import make_agents
-from dq_marine.agents.controllers.baselines import BASELINES, Agent, make_baseline
+from dq_marine.agents.controllers.baselines import AGENTS, Agent, make_baseline
 from dq_marine.agents.environments import marine
 from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, open_flight, options_of
 from dq_marine.agents.interactive.helm import Helm
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.errors import InvalidInputError
+from dq_marine.errors import InvalidInputError, MissingDependencyError
 
 HELM = "helm"
 """What the helm is called among the agents."""
@@ -46,16 +46,17 @@ class Flight:
 def offered_agents(
     env: gym.Env[Any, Any], *, baselines: Sequence[str], runs: Sequence[Path], seed: int
 ) -> dict[str, Agent]:
-    """Return those who can fly an environment, by name: first those that are asked for, then the other baselines.
+    """Return those who can fly an environment, by name: first those that are asked for, then all others.
 
     Raises:
         InvalidInputError: one that is asked for cannot fly it.
-        MissingDependencyError: a run is named, and the libraries to load it are not installed.
+        MissingDependencyError: the libraries that one that is asked for needs are not installed.
     """
     agents = make_agents(baselines, runs, env, seed=seed)
-    for name in BASELINES:
+    for name in AGENTS:
         if name not in agents:
-            with suppress(InvalidInputError):  # no controller reads what this task shows
+            # No controller reads what this task shows, or its libraries are not there.
+            with suppress(InvalidInputError, MissingDependencyError):
                 agents[name] = make_baseline(name, env, seed)
     return agents
 

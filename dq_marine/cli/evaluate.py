@@ -10,6 +10,7 @@ import typer
 
 from dq_marine.cli.common import console, examples
 from dq_marine.cli.options import (
+    ANYWHERE,
     Baseline,
     CurrentOption,
     EnvironmentPresetOption,
@@ -48,7 +49,9 @@ def evaluate(
     agent: Annotated[
         list[Baseline] | None,
         typer.Option(
-            "--agent", help="A baseline; may be repeated.", show_default="all, if no --run is given"
+            "--agent",
+            help="A baseline; may be repeated. lqr and mpc need the extra `mpc`.",
+            show_default="controller, zero and random, if no --run is given",
         ),
     ] = None,
     run: Annotated[
@@ -109,7 +112,7 @@ def evaluate(
     from dq_marine.cli.scenario_scores import Flights, evaluate_scenarios
 
     runs = run or []
-    baselines = agent or ([] if runs else list(Baseline))
+    baselines = agent or ([] if runs else list(ANYWHERE))
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
     if scenario:
         flights = Flights(scenario, options, preset, baselines, runs, episodes or 1, seed)

@@ -24,6 +24,12 @@ class Baseline(StrEnum):
     CONTROLLER = "controller"
     ZERO = "zero"
     RANDOM = "random"
+    LQR = "lqr"
+    MPC = "mpc"
+
+
+ANYWHERE = (Baseline.CONTROLLER, Baseline.ZERO, Baseline.RANDOM)
+"""Agents that are not for some tasks alone."""
 
 
 TaskOption = Annotated[

@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from dq_marine.agents.controllers.baselines import BASELINES
+from dq_marine.agents.controllers.baselines import AGENTS
 from dq_marine.agents.environments import make_environment, marine, space_shape
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.agents.training.run_folder import MODEL_FILE, RunFolder
@@ -68,7 +68,7 @@ def policies_of(runs: Sequence[Path]) -> list[Policy]:
     found: list[Policy] = []
     for run in runs:
         folder, name = RunFolder(run), run.resolve().name
-        if name in (*BASELINES, *(one.name for one in found)):
+        if name in (*AGENTS, *(one.name for one in found)):
             raise InvalidInputError(f"there are two agents called {shown(name)}; rename the folder {run}")
         environment = folder.read_plan().settings.environment
         digest = digests_of(folder.trained_snapshot)[MODEL_FILE][:16]

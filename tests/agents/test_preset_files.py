@@ -26,7 +26,15 @@ def edited(tmp_path: Path, preset: str, old: str, new: str) -> Path:
 
 
 def test_shipped_presets_are_valid() -> None:
-    assert preset_names() == ["autopilot", "avoidance", "dp_controller", "over_ground", "ppo", "sac"]
+    assert preset_names() == [
+        "autopilot",
+        "avoidance",
+        "dp_controller",
+        "over_ground",
+        "ppo",
+        "sac",
+        "trajectory",
+    ]
     read_settings("dp_controller", ControllerSettings)
     read_settings("autopilot", AutopilotSettings)
     read_settings("avoidance", AvoidanceSettings)
@@ -64,7 +72,8 @@ def test_controller_mistakes_are_named(tmp_path: Path) -> None:
 def test_what_is_no_preset(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInputError,
-        match="no preset or file 'ddpg'; the presets are autopilot, avoidance, dp_controller, over_ground, ppo, sac",
+        match="no preset or file 'ddpg'; the presets are autopilot, avoidance, dp_controller, over_ground, ppo, "
+        "sac, trajectory",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"

@@ -34,6 +34,16 @@ def test_evaluation_is_written(tmp_path: Path) -> None:
     assert content["scores"][1]["success_rate"] == 1.0
 
 
+def test_model_based_agents_are_chosen_by_name_where_they_can_fly(tmp_path: Path) -> None:
+    scores = tmp_path / "scores.json"
+    agents = ("--agent", "lqr", "--agent", "mpc")
+    task = ("--task", "TrajectoryTracking", "--episodes", "1", "--set", "max_episode_steps=30")
+    result = run("evaluate", *task, *agents, "--json", scores)
+    assert result.exit_code == 0, result.output
+    assert [score["agent"] for score in json.loads(scores.read_text())["scores"]] == ["lqr", "mpc"]
+    assert_refused(run("fly", "--agent", "mpc", "--seconds", "1"), "does not show goal_velocity_body")
+
+
 def test_flight_is_written(tmp_path: Path) -> None:
     plot = tmp_path / "errors.png"
     result = run(

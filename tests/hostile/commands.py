@@ -29,7 +29,7 @@ TEXTS = (
 """What any option may be given."""
 
 FLIGHT = {
-    "--agent": ("zero", "controller", "random"),
+    "--agent": ("zero", "controller", "random", "lqr", "mpc"),
     "--seed": ("0", "3"),
     "--vehicle": ("bluerov2_heavy",),
     "--task": ("dq_marine/StationKeeping-v0",),

@@ -43,7 +43,8 @@ def test_random_agent_draws_anew_in_every_episode() -> None:
 def test_unknown_names_are_refused() -> None:
     env = make_environment(DEFAULT_ENVIRONMENT)
     with pytest.raises(
-        InvalidInputError, match=r"'pid' is unknown; give one of \['controller', 'zero', 'random'\]"
+        InvalidInputError,
+        match=r"'pid' is unknown; give one of \['controller', 'zero', 'random', 'lqr', 'mpc'\]",
     ):
         make_agents(["pid"], [], env, seed=0)
 
