@@ -40,15 +40,19 @@ def flown(env, controller, periods=200, seed=3):
     return np.array(seen), np.array(actions)
 
 
+STAYS_WITHIN = {"bluerov2_heavy": 0.01, "bluerov2": 0.06, "rexrov": 0.01}
+"""Distance from the point [m] in the last third of an episode; a BlueROV2 cannot drive the pitch into which bends turn it."""
+
+
 @pytest.mark.parametrize("name", MODEL_BASED)
-@pytest.mark.parametrize("vehicle", sweep(["bluerov2_heavy", "bluerov2", "rexrov"], plain=["bluerov2_heavy"]))
+@pytest.mark.parametrize("vehicle", sweep(STAYS_WITHIN, plain=["bluerov2_heavy"]))
 def test_it_stays_with_the_point_in_a_current(name, vehicle):
     env = made(vehicle=vehicle)
     controller = make_baseline(name, env)
     for seed in range(3):
         episode = fly_episode(env, controller, seed=seed)
         assert episode.success, f"seed {seed}"
-        assert episode.measured["position_error"][episode.last_third].max() < 0.03
+        assert episode.measured["position_error"][episode.last_third].max() < STAYS_WITHIN[vehicle]
         assert np.degrees(episode.measured["heading_error"][episode.last_third]).max() < 2.0
 
 
