@@ -18,10 +18,10 @@ from dq_marine.viewer.snapshot import FloatArray
 Profile = Sequence[tuple[float, float]]
 """Points (distance from the axis, place along the axis) [m]."""
 
-SECTORS = 16
+SECTORS = 18
 """Facets around a body of revolution."""
 
-BLOCK_RINGS = 10
+BLOCK_RINGS = 12
 BLOCK_SECTORS = 24
 
 

@@ -178,3 +178,13 @@ def test_edges_are_smooth_where_a_graphics_card_draws_or_the_address_asks(
     assert page.evaluate(smoothed) is False  # the processor draws here
     with open_page(f"{viewer.url}?smooth=1") as asked:
         assert asked.evaluate(smoothed) is True
+
+
+def test_a_trail_that_grows_keeps_its_program(viewer: LiveViewer, page: Page) -> None:
+    trail = "viewer.scene_tree.find(['world', 'trail', '<object>']).object"
+    told = f"[{trail}.material.uuid, {trail}.geometry.attributes.position.count]"
+    draw(viewer, page, 200.0, position_ned=[0.0, 0.0, 5.0])
+    draw(viewer, page, 200.1, position_ned=[0.5, 0.0, 5.0])
+    material, points = page.evaluate(told)
+    draw(viewer, page, 200.2, position_ned=[1.0, 0.0, 5.0])
+    assert page.evaluate(told) == [material, points + 1]

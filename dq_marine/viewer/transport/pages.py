@@ -161,6 +161,7 @@ LIVE_PAGE = _page(
     _inline(LIVE_SCRIPT + CAPTION_SCRIPT),
     SEA,
     _inline(_file("hidden.js")),
+    _inline(_file("lines.js")),
     _inline(_file("legend.js")),
     _inline(_file("glide.js")),
     _inline(_file("panel.js")),
@@ -176,6 +177,7 @@ CAPTURE_PAGE = _page(
     _inline(_file("capture.js")),
     SEA,
     _inline(_file("hidden.js")),
+    _inline(_file("lines.js")),
 )
 
 REPLAY_DATA_SCRIPT = """

@@ -75,6 +75,7 @@ class PanelSocket(tornado.websocket.WebSocketHandler):
 
     def open(self, *_: str, **__: str) -> None:
         """Join the hub."""
+        self.set_nodelay(True)  # see `PageSocket`
         self._hub.connect(self)
 
     def tell(self, text: str) -> None:

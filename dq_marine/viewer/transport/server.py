@@ -86,6 +86,12 @@ class LoopbackApplication(tornado.web.Application):
 class PageSocket(WebSocketHandler):  # type: ignore[misc]  # meshcat has no type hints
     """The websocket of a page, which may answer with a picture when it was asked for one, and say nothing else."""
 
+    def open(self) -> None:
+        """Begin with the whole scene."""
+        # Small messages at once: by TCP's default one waits until the page has acknowledged the one before, some 40 ms.
+        self.set_nodelay(True)
+        super().open()
+
     def on_message(self, message: str | bytes) -> None:
         """Pass a picture on, if one is still wanted; close on anything else."""
         if not is_picture(message):

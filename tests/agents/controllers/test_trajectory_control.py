@@ -41,7 +41,7 @@ def flown(env, controller, periods=200, seed=3):
 
 
 STAYS_WITHIN = {"bluerov2_heavy": 0.01, "bluerov2": 0.06, "rexrov": 0.01}
-"""Distance from the point [m] in the last third of an episode; a BlueROV2 cannot drive the pitch into which bends turn it."""
+"""Distance from the point [m] in the last third of an episode; a BlueROV2 cannot drive its pitch."""
 
 
 @pytest.mark.parametrize("name", MODEL_BASED)
