@@ -23,7 +23,7 @@ from suite.tables import table
 import dq_marine  # noqa: F401 - registers
 from dq_marine.agents.controllers.baselines import Agent, make_baseline
 from dq_marine.agents.evaluation.episodes import Episode, fly_episode
-from dq_marine.report.machine import machine, versions
+from dq_marine.report.machine import load, machine, versions
 from dq_marine.util.files import with_folder, write_whole
 
 PAGE = circumstances.ROOT / "docs" / "tracking.md"
@@ -97,15 +97,15 @@ def section(vehicle: str, level: str, episodes: int) -> str:
     return f"### {vehicle}, {level}\n\n{table(HEADER, rows)}\n"
 
 
-def provenance(wanted: argparse.Namespace) -> str:
-    """Return command, machine and versions, as a paragraph."""
+def provenance(wanted: argparse.Namespace, load_before: float | None) -> str:
+    """Return command, machine, its load before, and versions, as a paragraph."""
     command = ["python benchmarks/tracking.py", f"--episodes {wanted.episodes}"]
     command += [f"--vehicle {one}" for one in wanted.vehicle] + [f"--level {one}" for one in wanted.level]
     own = machine()
     installed = versions(("numpy", "numba", "scipy", "osqp", "gymnasium"))
     libraries = ", ".join(f"{name} {version}" for name, version in installed.items())
     return (
-        f"`{' '.join(command)}`\n\n{own['cpu']}, {own['cores']} cores, beside other work; {libraries}; "
+        f"`{' '.join(command)}`\n\n{own['cpu']}, {own['cores']} cores, load {load_before}; {libraries}; "
         f"commit {circumstances.commit()}.\n"
     )
 
@@ -122,10 +122,11 @@ def main() -> None:
     wanted = parser.parse_args()
     wanted.vehicle = wanted.vehicle or ["bluerov2_heavy", "rexrov"]
     wanted.level = wanted.level or ["medium", "hard"]
+    load_before = load()
     sections = [section(one, level, wanted.episodes) for level in wanted.level for one in wanted.vehicle]
     words = PAGE.read_text(encoding="utf-8")
     before, rest = words.split(BEGIN)
-    tables = f"{BEGIN}\n{provenance(wanted)}\n{''.join(sections)}"
+    tables = f"{BEGIN}\n{provenance(wanted, load_before)}\n{''.join(sections)}"
     write_whole(with_folder(wanted.out), before + tables + END + rest.split(END)[1])
 
 

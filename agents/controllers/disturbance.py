@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.hydrodynamic_model import HydrodynamicModel
 from dq_marine.agents.controllers.reading import Reading
+from dq_marine.agents.controllers.rotation import both_halves
 
 Array = NDArray[np.float64]
 
@@ -64,11 +65,6 @@ class DisturbanceObserver:
         lacking = model.mass_matrix @ change - model.wrench(velocity) - model.restoring(down) - wrench
         seen = both_halves(reading.goal_to_body.T, lacking)
         self._estimate_in_goal = kept + self._share * (seen - kept)
-
-
-def both_halves(rotation: Array, vector: Array) -> Array:
-    """Return linear and angular part of 6-vectors rotated, shape (..., 6)."""
-    return np.concatenate([vector[..., :3] @ rotation.T, vector[..., 3:] @ rotation.T], axis=-1)
 
 
 def _turned_back(vector: Array, angles: Array) -> Array:

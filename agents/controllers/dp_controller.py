@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.reading import GOAL_POSE, Reading, goal_reader, read_goal_pose
+from dq_marine.agents.controllers.rotation import both_halves
 from dq_marine.agents.controllers.wrench_mapping import WRENCH_MAPPINGS, Given, WrenchMapping
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
@@ -209,7 +210,7 @@ class DPController:
             self.gains.proportional * reading.error_body
             + self.gains.derivative * (reading.goal_velocity_body - reading.velocity_body)
             + reading.goal_acceleration_body
-            + _rotated(reading.goal_to_body, self._integral_in_goal)
+            + both_halves(reading.goal_to_body, self._integral_in_goal)
         )
         wrench: Array = self._mass_matrix @ acceleration - self._restoring_wrench(reading.goal_to_body)
         return wrench
@@ -226,7 +227,8 @@ class DPController:
             [_shortened(linear, self._reaches[0]), _shortened(angular, self._reaches[1])]
         )
         gathered, fed_back = (
-            self.control_period * _rotated(reading.goal_to_body.T, np.where(self._limits == 0.0, 0.0, rate))
+            self.control_period
+            * both_halves(reading.goal_to_body.T, np.where(self._limits == 0.0, 0.0, rate))
             for rate in (
                 self.gains.integral * within_reach,
                 self._anti_windup_rate * self._inverse_mass_matrix @ shortfall,
@@ -259,11 +261,6 @@ def _six(settings: ControllerSettings, field: str) -> Array:
         return [float(getattr(loop, field))] * 3
 
     return np.array(three(settings.position) + three(settings.attitude))
-
-
-def _rotated(r: Array, a: Array) -> Array:
-    """Return both halves of a 6-vector rotated, shape (6,)."""
-    return np.concatenate([r @ a[:3], r @ a[3:]])
 
 
 def _shortened(a: Array, reach: float) -> Array:

@@ -86,10 +86,6 @@ class HorizonProblem:
         self._pattern, self._order = self._constraint_pattern()
         self._solver: osqp.OSQP | None = None
 
-    def forget(self) -> None:
-        """Begin anew: what the solver kept of other solutions is left behind."""
-        self._solver = None
-
     def solve(self, models: LinearModel, feedforward: Array, deviation: Array) -> Plan | None:
         """Return the best plan, or None where the solver finds none within its iterations.
 

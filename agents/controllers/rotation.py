@@ -42,3 +42,8 @@ def rotation_vector(r: Array) -> Array:
     if sine < SMALL_SINE:
         return 2.0 * q[1:]
     return 2.0 * math.atan2(sine, float(q[0])) / sine * q[1:]
+
+
+def both_halves(r: Array, a: Array) -> Array:
+    """Return linear and angular half of a 6-vector rotated, shape (6,)."""
+    return np.concatenate([r @ a[:3], r @ a[3:]])

@@ -18,11 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.deviation import deviation_model, reference_wrench, sampled
-from dq_marine.agents.controllers.disturbance import DisturbanceObserver, both_halves
+from dq_marine.agents.controllers.disturbance import DisturbanceObserver
 from dq_marine.agents.controllers.hydrodynamic_model import HydrodynamicModel
 from dq_marine.agents.controllers.lqr import Regulator, bryson_weights, regulator
 from dq_marine.agents.controllers.reading import GOAL_MOTION, GOAL_POSE, Reading, goal_reader, parts_reader
 from dq_marine.agents.controllers.reference import Reference, Way, reference_along
+from dq_marine.agents.controllers.rotation import both_halves
 from dq_marine.agents.controllers.wrench_mapping import WRENCH_MAPPINGS
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings

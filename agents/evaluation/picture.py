@@ -5,8 +5,8 @@ from __future__ import annotations
 import io
 
 from dq_marine.agents.controllers.baselines import controller_for
+from dq_marine.agents.environments import marine
 from dq_marine.agents.evaluation.episodes import fly_episode
-from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.envs.core.view import shape_of
 from dq_marine.envs.scenarios.environment import make_scenario
 from dq_marine.envs.scenarios.model import Scenario
@@ -32,7 +32,7 @@ def scenario_picture(scenario: Scenario) -> bytes:
         from PIL import Image
     env = make_scenario(scenario)
     agent = controller_for(env)
-    inner: MarineEnv = env.unwrapped  # type: ignore[assignment]
+    inner = marine(env)
     whole = fly_episode(env, agent, seed=scenario.seed, options=dict(scenario.reset))
     last = int(SHARE * len(whole.rewards))
     drawn = {last * number // (FRAMES - 1) for number in range(FRAMES)}

@@ -16,11 +16,10 @@ def shown_in(page: str) -> set[str]:
 def write_replay(name: str, file: Path) -> None:
     """Fly a scenario as `dq-marine fly --scenario NAME --html FILE` does."""
     from dq_marine.agents.controllers.baselines import controller_for
+    from dq_marine.agents.environments import scenario_settings
     from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, fly
-    from dq_marine.agents.settings import EnvironmentSettings
     from dq_marine.envs.scenarios.files import load_scenario
 
     scenario = load_scenario(name)
-    environment = EnvironmentSettings(id=scenario.definition.id, keywords=scenario.keywords)
-    plan = FlightPlan(environment, None, scenario.seed, start=scenario.reset)
+    plan = FlightPlan(scenario_settings(scenario), None, scenario.seed, start=scenario.reset)
     fly(plan, controller_for, Outputs(html=file), title=name)

@@ -10,7 +10,6 @@ import typer
 
 from dq_marine.cli.common import console, examples
 from dq_marine.cli.options import (
-    ANYWHERE,
     Baseline,
     CurrentOption,
     EnvironmentPresetOption,
@@ -106,13 +105,14 @@ def evaluate(
     which. A scenario is an episode that can be repeated: its start, its currents and its seed are fixed.
     """
     from dq_marine.agents.choice import make_agents, other_conditions
+    from dq_marine.agents.controllers.baselines import BASELINES
     from dq_marine.agents.environments import make_environment
     from dq_marine.agents.evaluation.evaluation import score_table
     from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment
     from dq_marine.cli.scenario_scores import Flights, evaluate_scenarios
 
     runs = run or []
-    baselines = agent or ([] if runs else list(ANYWHERE))
+    baselines = agent or ([] if runs else [Baseline(name) for name in BASELINES])
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
     if scenario:
         flights = Flights(scenario, options, preset, baselines, runs, episodes or 1, seed)

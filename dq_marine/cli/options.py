@@ -28,10 +28,6 @@ class Baseline(StrEnum):
     MPC = "mpc"
 
 
-ANYWHERE = (Baseline.CONTROLLER, Baseline.ZERO, Baseline.RANDOM)
-"""Agents that are not for some tasks alone."""
-
-
 TaskOption = Annotated[
     str | None,
     typer.Option(

@@ -71,14 +71,14 @@ def cuboid(along_x: float, along_y: float, along_z: float) -> Mesh:
     return joined(faces)
 
 
-def octahedron(radius: float) -> Mesh:
-    """A regular octahedron centred at the origin, corners on the axes [m], shaded as round."""
-    normals = np.vstack([np.eye(3), -np.eye(3)])
-    eighths = np.array(np.meshgrid(*[(0, 1)] * 3)).reshape(3, -1).T  # 1: the negative half of that axis
-    corners = 3 * eighths + [0, 1, 2]
-    mirrored = eighths.sum(axis=1) % 2 == 1  # seen from outside they run the other way round
-    triangles = np.where(mirrored[:, None], corners[:, ::-1], corners)
-    return Mesh(radius * normals, normals, triangles)
+def tetrahedron(radius: float) -> Mesh:
+    """A regular tetrahedron centred at the origin; distance of its corners [m]."""
+    corners = (
+        radius
+        / math.sqrt(3.0)
+        * np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]])
+    )
+    return joined([flat_polygon(corners[face]) for face in ([0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2])])
 
 
 def flat_polygon(corners: FloatArray) -> Mesh:

@@ -12,8 +12,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
-
-from dq_marine.viewer import find_chromium
+from viewer.devtools import open_page
 
 ROOT = Path(__file__).parents[2]
 
@@ -121,23 +120,9 @@ def test_pages_are_made_of_readme_and_notebook(site: Path) -> None:
 
 
 @pytest.mark.browser
-def test_search_answers_in_a_page_that_is_opened_as_a_file(site: Path, tmp_path: Path) -> None:
-    result = subprocess.run(
-        [
-            str(find_chromium()),
-            *(
-                "--headless",
-                "--no-sandbox",
-                "--disable-gpu",
-                "--no-first-run",
-                "--disable-background-networking",
-            ),
-            *(f"--user-data-dir={tmp_path}", "--virtual-time-budget=20000", "--dump-dom"),
-            f"{(site / 'index.html').as_uri()}?q=docking",
-        ],
-        capture_output=True,
-        text=True,
-        timeout=600,
-    )
-    assert "tasks/Docking.html" in result.stdout.split("md-search-result__meta")[-1].split("</ol>")[0]
-    assert "matching documents" in result.stdout
+def test_search_answers_in_a_page_that_is_opened_as_a_file(site: Path) -> None:
+    part = "document.querySelector('.md-search-result__{}')"
+    index = f"{(site / 'index.html').as_uri()}?q=docking"
+    with open_page(index, ready=part.format("meta")) as page:
+        page.wait_until(f"{part.format('meta')}.textContent.includes('matching documents')")
+        assert "tasks/Docking.html" in page.evaluate(f"{part.format('list')}.innerHTML")

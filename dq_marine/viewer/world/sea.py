@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from dq_marine.physics.waves.sea import Sea
-from dq_marine.viewer.meshes import Mesh, flat_polygon, grid_triangles, joined, octahedron
+from dq_marine.viewer.meshes import Mesh, flat_polygon, grid_triangles, joined, tetrahedron
 from dq_marine.viewer.snapshot import FloatArray, Shape
 from dq_marine.viewer.transport.messages import Message, set_object
 from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface, rgb, surface
@@ -38,7 +38,7 @@ CELLS_PER_STRONG_LINE = 5
 PERIODS_EACH_WAY = 3
 DIVISIONS_PER_PERIOD = 6
 SPECKS_PER_BLOCK = 60
-SPECK_IN_BLOCKS = 0.0012
+SPECK_IN_BLOCKS = 0.0015
 
 FINE_STEPS, FINE_REACH, STRETCH = 52, 0.55, 1.3
 """Of the mesh of a sea with waves: equal steps each way from the vehicle's origin, how far they go together [lengths of
@@ -141,13 +141,13 @@ def draw_shadow(shape: Shape) -> list[Message]:
 def draw_specks(scale: SeaScale) -> list[Message]:
     """Specks that hang in the water: they show motion where nothing else is near.
 
-    They are surfaces, as all that is drawn: next to points, Chromium's renderer on the processor lights the vehicle now
+    They are surfaces, not points: next to points, Chromium's renderer on the processor lights the vehicle now
     with and now without the sun, so that two pictures of one state differ.
     """
     block = np.random.default_rng(seed=1).uniform(0.0, 1.0, (SPECKS_PER_BLOCK, 3))
     corners = np.array(np.meshgrid(*[(-1.0, 0.0)] * 3)).reshape(3, -1).T
     places = scale.speck_block * (block[None, :, :] + corners[:, None, :]).reshape(-1, 3)
-    speck = octahedron(SPECK_IN_BLOCKS * scale.speck_block)
+    speck = tetrahedron(SPECK_IN_BLOCKS * scale.speck_block)
     specks = joined([Mesh(speck.vertices + place, speck.normals, speck.triangles) for place in places])
     return [set_object(SPECKS, painted_surface(SPECKS, [Painted(specks, SPECK)], SPECK_LOOK))]
 
