@@ -226,17 +226,23 @@ class DPController:
         within_reach = np.concatenate(
             [_shortened(linear, self._reaches[0]), _shortened(angular, self._reaches[1])]
         )
-        gathered, fed_back = (
-            self.control_period
-            * both_halves(reading.goal_to_body.T, np.where(self._limits == 0.0, 0.0, rate))
-            for rate in (
-                self.gains.integral * within_reach,
-                self._anti_windup_rate * self._inverse_mass_matrix @ shortfall,
-            )
-        )  # what no actuator can make up for is not summed up
-        before = self._integral_in_goal
+        gathered = self.gains.integral * within_reach
+        change = np.where(  # what no actuator can make up for is not summed up
+            self._limits == 0.0, 0.0, self._relief(reading.goal_to_body, shortfall) + self.control_period * gathered
+        )
+        self._integral_in_goal = self._integral_in_goal + both_halves(reading.goal_to_body.T, change)
+
+    def _relief(self, goal_to_body: Array, shortfall: Array) -> Array:
+        """Return what back-calculation adds to z in a control period, in body axes, shape (6,).
+
+        It is cut off at zero as a wrench in body axes, since that is where actuators saturate: each axis then gives
+        way by its own shortfall alone, whatever the goal's direction and however the mass matrix couples the axes.
+        """
+        before = self._mass_matrix @ both_halves(goal_to_body, self._integral_in_goal)
+        fed_back = self.control_period * self._anti_windup_rate * shortfall
         relieved = np.clip(before + fed_back, np.minimum(before, 0.0), np.maximum(before, 0.0))
-        self._integral_in_goal = relieved + gathered
+        relief: Array = self._inverse_mass_matrix @ (relieved - before)
+        return relief
 
     def _check_rate(self) -> None:
         """A velocity loop held over a period T is stable for k_d T < 2 and even-tempered below 1."""

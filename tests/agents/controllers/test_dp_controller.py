@@ -8,7 +8,7 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -97,6 +97,8 @@ def test_poles_are_where_the_preset_puts_them() -> None:
 
 @settings(max_examples=25)
 @given(st.lists(st.floats(-6.0, 6.0), min_size=3, max_size=3), st.floats(-3.1, 3.1))
+@example([0.5, 0.5, 0.0], 0.75)  # cut off at zero in the goal's axes, back-calculation let these two go
+@example([0.78, -0.55, 0.0], 2.06)  # 1.01 and 1.9 times as far
 def test_integral_does_not_wind_up(goal_body: list[float], turn: float) -> None:
     """Held fast for two minutes, it wants at most T_t k_i reach more acceleration than the actuators give.
 
