@@ -34,7 +34,7 @@ EXAMPLES = examples(
     "dq-marine compare --agent controller --agent zero --scenario StationKeeping/cross_current",
     "dq-marine compare --agent controller --run runs/ppo --seed 3 --html policy.html",
     "dq-marine compare --task TrajectoryTracking --agent controller --agent lqr --agent mpc",
-    'dq-marine compare --with "order 2: order=2" --with "order 8: scheme=galerkin, order=8" --set control_period=0.5',
+    'dq-marine compare --with "order 2: order=2" --with "order 8: scheme=galerkin, order=8" --set substeps=1',
     'dq-marine compare --with "calm: current=0" --with "stream: current=0.3,0,0" --side-by-side',
     "dq-marine compare --integrators",
 )

@@ -38,6 +38,9 @@ FLIGHTS = "/world/flights"
 LOGARITHMIC = 1e3
 """Largest over smallest value of a plot from which on its axis is logarithmic, if all are above 0."""
 
+LONGEST_AXIS = 1e9
+"""Largest over smallest value of a logarithmic axis; what is below is drawn at its end."""
+
 
 @dataclass(frozen=True, eq=False)
 class Flight(Recorded):
@@ -210,6 +213,8 @@ def _chart(label: str, flights: Sequence[Flight]) -> dict[str, Any] | None:
         return None
     low, high = float(known.min()), float(known.max())
     logarithmic = low > 0.0 and high > LOGARITHMIC * low
+    if logarithmic:
+        low = max(low, high / LONGEST_AXIS)
     if low == high:
         low, high = low - 0.5 * (abs(low) or 1.0), high + 0.5 * (abs(high) or 1.0)
     return {"label": label, "low": low, "high": high, "logarithmic": logarithmic}

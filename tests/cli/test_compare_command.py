@@ -63,7 +63,7 @@ def test_side_by_side(tmp_path: Path) -> None:
         (("--with", "a: ordre=2"), "ordre"),
         (("--with", "a:"), "changes nothing; give KEY=VALUE"),
         (("--with", "a: order"), "--with order does not name a keyword"),
-        (("--with", "a: vehicle='otter"), "No closing quotation"),
+        (("--with", "a: vehicle='otter"), "neither TOML nor JSON"),
         (("--agent", "zero", "--agent", "zero"), "two flights called 'zero'"),
         (("--agent", "zero", *(f"--with=current={n}" for n in range(7))), "7 flights.*colours for 6"),
         (("--html", "/nowhere/at/all.html", "--agent", "zero"), "/nowhere/at"),
@@ -83,8 +83,8 @@ def test_variants_are_read() -> None:
         "stream": {"current": [0.2, 0, 0], "level": "easy"},
         "control_period=0.2": {"control_period": 0.2},
     }
-    weather = """windy: 'weather=[{"kind": "wind", "speed": 8}]', order=2"""
-    assert read_variants([weather])["windy"]["weather"] == [{"kind": "wind", "speed": 8}]
+    weather = 'windy: weather=[{"kind": "wind", "speed": 8}], order=2'
+    assert read_variants([weather])["windy"] == {"weather": [{"kind": "wind", "speed": 8}], "order": 2}
     with pytest.raises(InvalidInputError, match="changes nothing"):
         read_variants(["a: "])
 

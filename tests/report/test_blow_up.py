@@ -37,7 +37,7 @@ def test_all_begin_at_one_place_and_end_when_their_captions_say(runs: list[Run])
 
 
 def test_rk4_fails_beyond_its_bound_of_stability_by_the_speed_before(runs: list[Run]) -> None:
-    """The h lambda of the fastest axis, with the quadratic damping at that speed, is beyond 2.785 before the failure."""
+    """Of surge, with the quadratic damping at that speed, h lambda is beyond 2.785 before the failure."""
     _, rk4, exact = runs
     physics = CASES[CASE].physics
 

@@ -62,7 +62,8 @@
     const header = make("header", {}, make("span", {textContent: label}), make("span", {className: "range", textContent: range}));
     element("overlay-plots").append(make("div", {className: "plot"}, header, canvas, cursor));
     const scale = logarithmic ? Math.log : (value) => value;
-    const y_of = (value) => HEIGHT - MARGIN - (HEIGHT - 2 * MARGIN) * (scale(value) - scale(low)) / (scale(high) - scale(low));
+    const height_of = (value) => (scale(Math.max(value, low)) - scale(low)) / (scale(high) - scale(low));
+    const y_of = (value) => HEIGHT - MARGIN - (HEIGHT - 2 * MARGIN) * height_of(value);
 
     function draw() {
       const ratio = window.devicePixelRatio, width = canvas.clientWidth;
