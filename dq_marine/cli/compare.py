@@ -138,6 +138,8 @@ def compare(
     environment = requested_environment(runs, options, preset=preset, scenario=begun)
     alone = [Baseline.CONTROLLER] if runs or variants else [Baseline.CONTROLLER, Baseline.ZERO]
     contenders = _contenders(agent or alone, runs, environment, variants)
+    if not side_by_side:
+        _check_colors(len(contenders))
     if begun is None:
         plan = FlightPlan(environment, SECONDS if seconds is None else seconds, seed)
     else:
@@ -180,7 +182,6 @@ def _contenders(
     from dq_marine.agents.choice import make_agents
     from dq_marine.agents.evaluation.comparison import Contender
     from dq_marine.agents.keywords import with_changes
-    from dq_marine.viewer.models.paint import FLIGHT_COLORS
 
     agents: list[tuple[str, list[str], list[Path]]] = [(str(name), [str(name)], []) for name in baselines]
     agents += [(one.resolve().name, [], [one]) for one in runs]
@@ -196,9 +197,15 @@ def _contenders(
             return next(iter(make_agents(chosen, trained, env, seed=seed).values()))
 
         contenders[name] = Contender(changed, make)
-    if len(contenders) > len(FLIGHT_COLORS):
-        raise InvalidInputError(
-            f"agents and settings make {len(contenders)} flights, and a page has colours for {len(FLIGHT_COLORS)}; "
-            "give fewer"
-        )
     return contenders
+
+
+def _check_colors(flights: int) -> None:
+    """Refuse before the first flight what could not be overlaid after the last."""
+    from dq_marine.viewer.models.paint import FLIGHT_COLORS
+
+    if flights > len(FLIGHT_COLORS):
+        raise InvalidInputError(
+            f"agents and settings make {flights} flights, and one scene has colours for {len(FLIGHT_COLORS)}; give "
+            "fewer, or --side-by-side"
+        )

@@ -36,6 +36,8 @@
     return ended;
   });
 
+  element("overlay").addEventListener("keydown", (event) => event.stopPropagation());  // its boxes have the space key
+
   // The camera: the world is drawn along with the first vehicle; with another, the camera goes along besides
 
   const away = viewer.camera.position.clone().set(0, 0, 0);  // how far it has gone already, in three.js' world
