@@ -146,15 +146,14 @@ def compare(
         plan = FlightPlan(environment, seconds, begun.seed if seed is None else seed, start=begun.reset)
     with shown_part("Flying") as progress:
         flown = fly_contenders(contenders, plan, html, progress=progress)
-    flights = [one.flight for one in flown.values()]
-    begun_with = next(iter(flown.values())).episode.seed
-    what = environment.id.rpartition("/")[2].removesuffix("-v0") if begun is None else begun.full_name
-    title = f"{what}, seed {begun_with}"
-    save_comparison(html, flights, title=title, side_by_side=side_by_side)
     console.print(comparison_table(flown))
     for name, one in flown.items():
         for note in one.episode.notes:
             console.print(f"{name}: {note}", highlight=False, markup=False)
+    what = environment.id.rpartition("/")[2].removesuffix("-v0") if begun is None else begun.full_name
+    title = f"{what}, seed {next(iter(flown.values())).episode.seed}"
+    flights = [one.flight for one in flown.values()]
+    save_comparison(html, flights, title=title, side_by_side=side_by_side)
     console.print(f"Wrote {html}", soft_wrap=True)
 
 

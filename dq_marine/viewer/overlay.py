@@ -104,10 +104,12 @@ def make_overlay(
     first, *others = flights
     stage = stage_of(flights)
     times = np.array([snapshot.time for snapshot in stage])
+    largest = max((flight.shape for flight in flights), key=lambda shape: shape.size)
     if floor_depth is None:
-        floor_depth = max(floor_below(flight.snapshots, first.shape) for flight in flights)
+        floor_depth = max(floor_below(flight.snapshots, largest) for flight in flights)
     tint, *tints = FLIGHT_COLORS[: len(flights)]
-    messages, clips = staged(stage, times, Drawing(first.shape, checked_floor_depth(floor_depth), tint), tint)
+    drawing = Drawing(first.shape, checked_floor_depth(floor_depth), tint=tint, largest=largest)
+    messages, clips = staged(stage, times, drawing, tint)
     messages.append(set_property(THRUST, "visible", False))  # the legend leaves it out, too
     for number, (other, color) in enumerate(zip(others, tints, strict=True), start=1):
         drawn, moving = _beside(other, f"{FLIGHTS}/{number}", color, float(times[-1]), first)

@@ -235,6 +235,17 @@ def test_flights_that_end_together_but_for_rounding_have_no_second_end(tmp_path:
     assert_allclose(times, 0.15 * np.arange(7), atol=1e-5)
 
 
+def test_the_camera_is_as_far_as_the_largest_vehicle_wants(tmp_path: Path) -> None:
+    path, big = tmp_path / "two.html", replace(ROV, length=4.0)
+
+    def distance(*shapes: Shape) -> float:
+        save_overlay(path, [Flight(str(n), circling(2, 1.0), shape) for n, shape in enumerate(shapes)])
+        placed = next(one for one in commands_in(path) if one.get("property") == "position")
+        return math.hypot(*placed["value"])
+
+    assert distance(ROV, big) == distance(big) > distance(ROV)
+
+
 def test_currents_that_differ_are_not_drawn(tmp_path: Path) -> None:
     path = tmp_path / "two.html"
     save_overlay(

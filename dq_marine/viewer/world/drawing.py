@@ -76,18 +76,27 @@ NED_TO_Z_UP: Quaternion = (0.0, 1.0, 0.0, 0.0)
 class Drawing:
     """Turns snapshots into placements of the things in the scene."""
 
-    def __init__(self, shape: Shape, floor_depth: float | None = None, tint: int | None = None) -> None:
+    def __init__(
+        self,
+        shape: Shape,
+        floor_depth: float | None = None,
+        *,
+        tint: int | None = None,
+        largest: Shape | None = None,
+    ) -> None:
         """Draw nothing yet.
 
         Args:
             shape: the vehicle.
             floor_depth: depth of the sea floor [m], or None for one below vehicle and goal.
             tint: the vehicle is drawn in shades of it, 0xRRGGBB; None for its own colours.
+            largest: of several vehicles in the scene, whose size camera and surroundings suit; None where it is alone.
         """
         self._shape = shape
+        self._largest = shape if largest is None else largest
         self._tint = tint
-        self._scale = SeaScale.of(shape)
-        self._view = LeashedView(LEASH_IN_LENGTHS * shape.length)
+        self._scale = SeaScale.of(self._largest)
+        self._view = LeashedView(LEASH_IN_LENGTHS * self._largest.length)
         self._given_floor_depth = floor_depth
         self._floor_depth: float | None = None
         self._things = Things()
@@ -113,7 +122,7 @@ class Drawing:
             *draw_vehicle(self._shape, tint=self._tint),
             *draw_goal(self._shape),
             *self._arrows.scenery(),
-            *place_camera(first, self._shape, scale.sight),
+            *place_camera(first, self._largest, scale.sight),
         ]
 
     def appear(self, snapshot: Snapshot) -> list[Message]:
