@@ -157,27 +157,33 @@ def episode_table(episode: Episode) -> Table:
     table = Table(show_header=False)
     table.add_column("quantity")
     table.add_column("value", justify="right", style="bold")
+    for quantity, value in episode_rows(episode).items():
+        table.add_row(quantity, value)
+    return table
+
+
+def episode_rows(episode: Episode) -> dict[str, str]:
+    """Return what came out of a flight as people read it, by quantity."""
+    rows = {}
     for metric in episode.metrics:
         values = metric.shown(episode.measured[metric.name])
-        table.add_row(f"{metric.label}, start", metric.text(values[0]))
-        table.add_row(f"{metric.label}, end", metric.text(values[-1]))
-        table.add_row(
-            f"{metric.label}, mean of the last third", metric.text(values[episode.last_third].mean())
-        )
+        rows[f"{metric.label}, start"] = metric.text(values[0])
+        rows[f"{metric.label}, end"] = metric.text(values[-1])
+        rows[f"{metric.label}, mean of the last third"] = metric.text(values[episode.last_third].mean())
     if episode.tolerances:
         limits = " and ".join(
             f"{metric.shown(tolerance):.4g} {metric.shown_unit}".rstrip()
             for metric, tolerance in episode.tolerances.items()
         )
         settled = "not" if episode.settling_time is None else f"after {episode.settling_time:.1f} s"
-        table.add_row(f"settled within {limits}", settled)
-    table.add_row("return", f"{episode.total_reward:z.1f}")
+        rows[f"settled within {limits}"] = settled
+    rows["return"] = f"{episode.total_reward:z.1f}"
     for name, values in episode.reward_terms.items():
-        table.add_row(f"  of which {name.removeprefix(REWARD_PREFIX)}", f"{math.fsum(values.tolist()):z.1f}")
+        rows[f"  of which {name.removeprefix(REWARD_PREFIX)}"] = f"{math.fsum(values.tolist()):z.1f}"
     if episode.ended_early:
-        table.add_row("ended early", f"after {episode.time[-1]:.1f} s")
-    table.add_row("seed", str(episode.seed))
-    return table
+        rows["ended early"] = f"after {episode.time[-1]:.1f} s"
+    rows["seed"] = str(episode.seed)
+    return rows
 
 
 def far_seed(plan: FlightPlan) -> int:

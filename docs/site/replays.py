@@ -1,11 +1,13 @@
-"""The replays that pages show: each is a scenario, flown by the baseline controller."""
+"""The replays that pages show: scenarios, flown by the baseline controller, and comparisons."""
 
 from __future__ import annotations
 
 import re
+import shlex
 from pathlib import Path
 
 REPLAY = re.compile(r"replays/(\w+/\w+)\.html")
+COMPARISON = re.compile(r"dq-marine compare ([^\n]*)--html (\w+)\.html")
 
 
 def shown_in(page: str) -> set[str]:
@@ -23,3 +25,19 @@ def write_replay(name: str, file: Path) -> None:
     scenario = load_scenario(name)
     plan = FlightPlan(scenario_settings(scenario), None, scenario.seed, start=scenario.reset)
     fly(plan, controller_for, Outputs(html=file), title=name)
+
+
+def comparisons_in(page: str) -> dict[str, list[str]]:
+    """Return the options of the comparisons that a page shows as `comparisons/NAME.html`, by that name.
+
+    They stand on the page as `dq-marine compare OPTIONS --html NAME.html`.
+    """
+    commands = {name: shlex.split(options) for options, name in COMPARISON.findall(page)}
+    return {name: options for name, options in commands.items() if f"comparisons/{name}.html" in page}
+
+
+def write_comparison(options: list[str], file: Path) -> None:
+    """Write a page as `dq-marine compare OPTIONS --html FILE` does."""
+    from dq_marine.cli.main import app
+
+    app(["compare", *options, "--html", str(file)], standalone_mode=False)

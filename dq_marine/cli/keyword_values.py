@@ -16,10 +16,14 @@ _WORD = re.compile(r"[^\[\]{}\"'=,]+")
 _NUMBERS = re.compile(r"[-+.\w]+(,[-+.\w]+)+")
 
 
-def read_keywords(texts: Sequence[str]) -> dict[str, Any]:
+def read_keywords(texts: Sequence[str], *, option: str = "--set") -> dict[str, Any]:
     """Return keywords from texts such as "current=0.3" or "reward.effort=0.05"; dots make nested dictionaries.
 
     The last of two that name the same keyword counts.
+
+    Args:
+        texts: what was typed.
+        option: behind which, for the message.
 
     Raises:
         InvalidInputError: a text has no "=", or its value cannot be read.
@@ -29,7 +33,7 @@ def read_keywords(texts: Sequence[str]) -> dict[str, Any]:
         key, equals, value = text.partition("=")
         if not equals or not _KEY.fullmatch(key):
             raise InvalidInputError(
-                f"--set {text} does not name a keyword and its value; give KEY=VALUE, as in current=0.3"
+                f"{option} {text} does not name a keyword and its value; give KEY=VALUE, as in current=0.3"
             )
         *outer, last = key.split(".")
         table = keywords
@@ -37,7 +41,7 @@ def read_keywords(texts: Sequence[str]) -> dict[str, Any]:
             inner = table.get(part)
             table[part] = inner if isinstance(inner, dict) else {}
             table = table[part]
-        table[last] = read_value(value, option=f"--set {text}")
+        table[last] = read_value(value, option=f"{option} {text}")
     return keywords
 
 

@@ -13,6 +13,7 @@ import typer
 from dq_marine import __version__
 from dq_marine.cli import (
     add,
+    compare,
     demo,
     evaluate,
     fly,
@@ -58,6 +59,7 @@ def main(
 app.command(epilog=demo.EXAMPLES)(demo.demo)
 app.command(epilog=fly.EXAMPLES)(fly.fly)
 app.command(epilog=evaluate.EXAMPLES)(evaluate.evaluate)
+app.command(epilog=compare.EXAMPLES)(compare.compare)
 app.command(epilog=leaderboard.EXAMPLES)(leaderboard.leaderboard)
 app.command(epilog=train.EXAMPLES)(train.train)
 app.command(epilog=tasks.EXAMPLES)(tasks.tasks)

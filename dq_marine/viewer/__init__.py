@@ -9,6 +9,7 @@ from __future__ import annotations
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.live import LiveViewer
 from dq_marine.viewer.offscreen import OffscreenViewer
+from dq_marine.viewer.overlay import Flight, make_overlay, save_overlay
 from dq_marine.viewer.pacing import RealTimePacer
 from dq_marine.viewer.replay import Replay, make_replay, save_replay
 from dq_marine.viewer.snapshot import Shape, Snapshot, Thruster
@@ -16,6 +17,7 @@ from dq_marine.viewer.transport.browser import find_chromium
 from dq_marine.viewer.video import save_video
 
 __all__ = [
+    "Flight",
     "LiveViewer",
     "OffscreenViewer",
     "RealTimePacer",
@@ -25,7 +27,9 @@ __all__ = [
     "Thruster",
     "ViewerError",
     "find_chromium",
+    "make_overlay",
     "make_replay",
+    "save_overlay",
     "save_replay",
     "save_video",
 ]

@@ -9,24 +9,22 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from string import Template
+from typing import Any
 
 import numpy as np
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.files import check_folder, write_whole
+from dq_marine.viewer.clips import animation, moving_clips
 from dq_marine.viewer.framed import framed
 from dq_marine.viewer.libraries import meshcat_page_folder
-from dq_marine.viewer.placement import Placement
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
-from dq_marine.viewer.transport.messages import Message, set_animation, set_transform
+from dq_marine.viewer.transport.messages import Message, set_transform
 from dq_marine.viewer.transport.pages import REPLAY_PAGE
-from dq_marine.viewer.transport.three_json import Json, packed_floats
-from dq_marine.viewer.world.drawing import JUMPING_PATHS, Drawing, checked_floor_depth, floor_below
-from dq_marine.viewer.world.trail import draw_trail
-
-STEPWISE = 2300
-LINEAR = 2301
-"""three.js' names for ways from one keyframe to the next; it turns attitudes by slerp."""
+from dq_marine.viewer.transport.three_json import Json
+from dq_marine.viewer.world.drawing import Drawing, checked_floor_depth, floor_below
+from dq_marine.viewer.world.trail import TRAIL_YELLOW, draw_trail
 
 
 @dataclass(frozen=True)
@@ -50,7 +48,7 @@ class Replay:
         Raises:
             InvalidInputError: the path cannot be written.
         """
-        write_whole(_checked_target(Path(path)), self.page)
+        write_whole(checked_target(Path(path)), self.page)
 
     def _repr_html_(self) -> str:
         return framed(self.page)
@@ -79,7 +77,7 @@ def save_replay(
         InvalidInputError: see `make_replay`; or the path cannot be written.
         MissingDependencyError: meshcat is not installed.
     """
-    target = _checked_target(Path(path))
+    target = checked_target(Path(path))
     make_replay(snapshots, shape, floor_depth=floor_depth, title=title).save(target)
 
 
@@ -101,95 +99,92 @@ def make_replay(
     times = checked_times(snapshots)
     if floor_depth is None:
         floor_depth = floor_below(snapshots, shape)
-    messages = _messages(snapshots, times, Drawing(shape, checked_floor_depth(floor_depth)))
-    return Replay(
-        REPLAY_PAGE.substitute(
-            title=html.escape(title),
-            # A script ends at the first closing tag, wherever that stands.
-            meshcat=_meshcat_script().replace("</script", "<\\/script"),
-            messages=json.dumps([base64.b64encode(c.packed()).decode() for c in messages]),
-            times=json.dumps(times.tolist()),
-        )
+    messages, clips = staged(snapshots, times, Drawing(shape, checked_floor_depth(floor_depth)))
+    page = filled(REPLAY_PAGE, title, messages + animation(clips), times=script_json(times.tolist()))
+    return Replay(page)
+
+
+def filled(page: Template, title: str, messages: Sequence[Message], **data: str) -> str:
+    """Return the page of a replay with all that it needs.
+
+    Args:
+        page: with places for a title, meshcat, messages and data.
+        title: plain text.
+        messages: what the page does, in their order.
+        data: further JavaScript, by its place in the page.
+    """
+    return page.substitute(
+        title=html.escape(title),
+        # A script ends at the first closing tag, wherever that stands.
+        meshcat=_meshcat_script().replace("</script", "<\\/script"),
+        messages=script_json([base64.b64encode(one.packed()).decode() for one in messages]),
+        **data,
     )
 
 
-def _checked_target(path: Path) -> Path:
+def script_json(content: Any) -> str:
+    """Return content as JavaScript in a page, where no text of it can end the script.
+
+    Raises:
+        ValueError: there is a number that is not finite in it.
+    """
+    return json.dumps(content, allow_nan=False).replace("<", "\\u003c")
+
+
+def checked_target(path: Path) -> Path:
+    """Return the path of a page to write.
+
+    Raises:
+        InvalidInputError: it is a folder, or its folder does not exist.
+    """
     if path.is_dir():
         raise InvalidInputError(f"{path} is a folder; give the path of a file in it")
     check_folder(path)
     return path
 
 
-def checked_times(snapshots: Sequence[Snapshot]) -> FloatArray:
+def checked_times(snapshots: Sequence[Snapshot], of: str = "") -> FloatArray:
     """The times of the snapshots [s].
+
+    Args:
+        snapshots: of one motion.
+        of: which motion that is, for the message.
 
     Raises:
         InvalidInputError: there are none, or they do not increase.
     """
     if not snapshots:
-        raise InvalidInputError("there are 0 snapshots; give at least 1: record some first")
+        raise InvalidInputError(f"there are 0 snapshots{of}; give at least 1: record some first")
     times = np.array([snapshot.time for snapshot in snapshots])
     stuck = np.flatnonzero(np.diff(times) <= 0.0)
     if len(stuck):
         at = int(stuck[0])
         raise InvalidInputError(
-            f"snapshot {at + 1} has time {times[at + 1]:g} s, which is not after the {times[at]:g} s "
+            f"snapshot {at + 1}{of} has time {times[at + 1]:g} s, which is not after the {times[at]:g} s "
             "of the one before; times must increase: write one file for each episode"
         )
     return times
 
 
-def _messages(snapshots: Sequence[Snapshot], times: FloatArray, drawing: Drawing) -> list[Message]:
-    """Everything the page has to do: draw, place, animate."""
+def staged(
+    snapshots: Sequence[Snapshot], times: FloatArray, drawing: Drawing, trail_color: int = TRAIL_YELLOW
+) -> tuple[list[Message], list[Json]]:
+    """Return what draws and places everything at the first snapshot, and the clips of what moves.
+
+    Args:
+        snapshots: one or more.
+        times: of them [s], shape (n,).
+        drawing: of a vehicle and its surroundings, that has drawn nothing yet.
+        trail_color: 0xRRGGBB.
+    """
     messages = drawing.scenery(snapshots[0])
     for snapshot in snapshots:
         messages += drawing.appear(snapshot)
     frames = [drawing.placements(snapshot) for snapshot in snapshots]
-    messages.append(draw_trail(np.array([snapshot.position_ned for snapshot in snapshots]), times))
+    track = np.array([snapshot.position_ned for snapshot in snapshots])
+    messages.append(draw_trail(track, times, color=trail_color))
     messages += [set_transform(path, placement) for path, placement in frames[0].items()]
-    clips = [
-        {"path": path, "clip": _clip(path, [frame[path] for frame in frames], times)}
-        for path in frames[0]
-        if any(frame[path] != frames[0][path] for frame in frames)
-    ]
-    if clips:
-        messages.append(set_animation(clips, play=True))
-    return messages
-
-
-def _clip(path: str, placements: Sequence[Placement], times: FloatArray) -> Json:
-    """The motion of one thing as a three.js animation clip, from time zero on."""
-    manner = STEPWISE if path in JUMPING_PATHS else LINEAR
-    positions = np.array([placement.position for placement in placements])
-    attitudes = _continuous(np.array([placement.quaternion for placement in placements]))
-    scales = np.array([[placement.scale] * 3 for placement in placements])
-    tracks = [
-        _track("position", "vector3", times, positions, manner),
-        # three.js puts the scalar part last.
-        _track("quaternion", "quaternion", times, np.roll(attitudes, -1, axis=1), manner),
-        _track("scale", "vector3", times, scales, manner),
-    ]
-    # At one frame per second the times are in seconds.
-    return {"name": path, "fps": 1, "tracks": tracks}
-
-
-def _track(name: str, kind: str, times: FloatArray, values: FloatArray, manner: int) -> Json:
-    return {
-        "name": f".{name}",
-        "type": kind,
-        "times": packed_floats(times - times[0]),
-        "values": packed_floats(values),
-        "interpolation": manner,
-    }
-
-
-def _continuous(quaternions: FloatArray) -> FloatArray:
-    """Quaternions, shape (n, 4), with signs such that neighbours are never more than 90 deg apart."""
-    dots = np.sum(quaternions[1:] * quaternions[:-1], axis=1)
-    flips = np.where(dots < 0.0, -1.0, 1.0)
-    signs = np.concatenate([[1.0], np.cumprod(flips)])
-    continuous: FloatArray = signs[:, None] * quaternions
-    return continuous
+    return messages, moving_clips(frames, times)
 
 
 def _meshcat_script() -> str:

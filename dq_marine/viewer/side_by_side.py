@@ -10,6 +10,7 @@ from string import Template
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.files import check_folder, write_whole
+from dq_marine.viewer.replay import Replay
 
 PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
@@ -57,7 +58,10 @@ PANEL = Template('<section><h2>$name</h2><iframe title="$name" srcdoc="$page"></
 
 
 def save_side_by_side(
-    path: str | os.PathLike[str], replays: Mapping[str, str | os.PathLike[str]], *, title: str = "dq-marine"
+    path: str | os.PathLike[str],
+    replays: Mapping[str, Replay | str | os.PathLike[str]],
+    *,
+    title: str = "dq-marine",
 ) -> None:
     """Write one page of several replays: open it in any browser, with no other file and no network.
 
@@ -65,7 +69,7 @@ def save_side_by_side(
 
     Args:
         path: of the HTML file; its folder must exist.
-        replays: files that `save_replay` has written, by what stands above each.
+        replays: replays, or files that `save_replay` has written, by what stands above each.
         title: plain text, above all of them.
 
     Raises:
@@ -78,15 +82,17 @@ def save_side_by_side(
     if not replays:
         raise InvalidInputError("replays is empty; give at least one file that save_replay has written")
     panels = [
-        PANEL.substitute(name=html.escape(name), page=html.escape(_read(name, Path(replay))))
+        PANEL.substitute(name=html.escape(name), page=html.escape(_page_of(name, replay)))
         for name, replay in replays.items()
     ]
     write_whole(target, PAGE.substitute(title=html.escape(title), panels="\n".join(panels)))
 
 
-def _read(name: str, replay: Path) -> str:
+def _page_of(name: str, replay: Replay | str | os.PathLike[str]) -> str:
+    if isinstance(replay, Replay):
+        return replay.page
     try:
-        return replay.read_text(encoding="utf-8")
+        return Path(replay).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise InvalidInputError(
             f"the replay {name!r}, {replay}, cannot be read: {error}; give a file that save_replay has written"

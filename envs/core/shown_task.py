@@ -11,6 +11,7 @@ from dq_marine.envs.core.composed_task import ComposedTask
 from dq_marine.envs.core.view import EpisodeView
 
 if TYPE_CHECKING:
+    from dq_marine.viewer.overlay import Flight
     from dq_marine.viewer.replay import Replay
 
 
@@ -57,6 +58,17 @@ class ShownTask(ComposedTask):
             MissingDependencyError: meshcat is not installed.
         """
         return self._view.replay()
+
+    def recorded_flight(self, name: str) -> Flight:
+        """Return the episode so far as a flight that `dq_marine.viewer.make_overlay` shows in one scene with others.
+
+        Args:
+            name: of the flight, in the legend.
+
+        Raises:
+            InvalidInputError: the environment was made without `record=True`.
+        """
+        return self._view.flight(name)
 
     @property
     def viewer_url(self) -> str | None:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from dq_marine.envs.core.marine_env import MarineEnv
     from dq_marine.viewer.live import LiveViewer
     from dq_marine.viewer.offscreen import OffscreenViewer
+    from dq_marine.viewer.overlay import Flight
     from dq_marine.viewer.playback import Playback
     from dq_marine.viewer.replay import Replay
 
@@ -144,6 +145,12 @@ class EpisodeView:
         from dq_marine.viewer.replay import make_replay
 
         return make_replay(self._recorded("replay"), self._shape, title=self._title)
+
+    def flight(self, name: str) -> Flight:
+        """Return the recorded episode as one flight among others."""
+        from dq_marine.viewer.overlay import Flight
+
+        return Flight(name, tuple(self._recorded("recorded_flight")), self._shape)
 
     @property
     def url(self) -> str | None:

@@ -148,6 +148,9 @@ def test_training_from_the_command_line(tmp_path: Path) -> None:
     assert run("train", "--run", tmp_path / "run", "--resume", "--timesteps", "512").exit_code == 0
     result = run("evaluate", "--run", tmp_path / "run", "--episodes", "1")
     assert result.exit_code == 0, result.output
+    result = run("compare", "--run", tmp_path / "run", "--seconds", "1", "--html", tmp_path / "both.html")
+    assert result.exit_code == 0, result.output
+    assert re.search(r"controller\s+┃\s+run", result.output)
     assert "other conditions" not in result.output
     scores = tmp_path / "scores.json"
     changed = ["--set", "current=0.5", "--set", "substeps=2", "--json", scores]

@@ -75,7 +75,7 @@ class Links(HTMLParser):
 
 def pages_of(site: Path) -> dict[Path, Links]:
     """The pages, without the replays, which tests/viewer looks at."""
-    paths = [path for path in site.rglob("*.html") if "replays" not in path.parts]
+    paths = [path for path in site.rglob("*.html") if not {"replays", "comparisons"} & set(path.parts)]
     return {path: Links(path.read_text(encoding="utf-8")) for path in paths}
 
 
@@ -110,6 +110,9 @@ def test_replays_are_those_that_pages_show(site: Path) -> None:
     replays = {path.relative_to(site).as_posix() for path in (site / "replays").rglob("*.html")}
     assert len(replays) >= 6
     assert all((site / replay).stat().st_size > 100_000 for replay in replays)
+    compared = list((site / "comparisons").rglob("*.html"))
+    assert len(compared) >= 2
+    assert all("const overlay = " in page.read_text(encoding="utf-8") for page in compared)
 
 
 def test_pages_are_made_of_readme_and_notebook(site: Path) -> None:

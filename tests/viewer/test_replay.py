@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import base64
-import json
 import math
 import os
-import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-import umsgpack
 from numpy.testing import assert_allclose
+from viewer.commands import commands_in
 from viewer.devtools import Page, open_page
 from viewer.samples import ROV, snapshot, yawed
 
@@ -61,13 +57,6 @@ def page(replay: Path) -> Iterator[Page]:
     with open_page(replay.as_uri()) as shown:
         shown.evaluate(WATCH_TRAIL)
         yield shown
-
-
-def commands_in(path: Path) -> list[dict[str, Any]]:
-    """The messages that a replay carries out, in order."""
-    found = re.search(r"const messages = (\[.*\]);", path.read_text(encoding="utf-8"))
-    assert found is not None
-    return [umsgpack.unpackb(base64.b64decode(command)) for command in json.loads(found[1])]
 
 
 def seek(page: Page, time: float) -> None:

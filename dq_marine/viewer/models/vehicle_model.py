@@ -13,6 +13,7 @@ from dq_marine.viewer.models import (
     ship_model,
     torpedo_model,
 )
+from dq_marine.viewer.models.paint import tinted
 from dq_marine.viewer.models.thruster_model import thruster_model
 from dq_marine.viewer.snapshot import Shape, ShapeKind
 from dq_marine.viewer.transport.messages import Message, set_object
@@ -47,22 +48,24 @@ THRUSTER_RADII: dict[ShapeKind, Callable[[Shape], float]] = {
 }
 
 
-def draw_vehicle(shape: Shape) -> list[Message]:
-    """Draw a vehicle, part by part, in body axes."""
+def draw_vehicle(shape: Shape, path: str = VEHICLE, tint: int | None = None) -> list[Message]:
+    """Draw a vehicle, part by part, in body axes; in shades of a tint, 0xRRGGBB, or in its own colours."""
     parts = {**_hull_parts(shape), **_thrusters(shape)}
-    messages = [_draw(f"{VEHICLE}/{name}", painted, SOLID) for name, painted in parts.items()]
+    messages = [_draw(f"{path}/{name}", tinted(painted, tint), SOLID) for name, painted in parts.items()]
     if shape.kind == "open_frame":
         # Glass comes after what can be seen through it.
-        messages.append(_draw(f"{VEHICLE}/dome", open_frame_model.dome(shape), GLASS))
+        messages.append(_draw(f"{path}/dome", open_frame_model.dome(shape), GLASS))
     return messages
 
 
-def draw_goal(shape: Shape) -> list[Message]:
-    """Draw the hull as a green ghost, and a green ball for a goal without an attitude."""
+def draw_goal(
+    shape: Shape, ghost_path: str = GOAL_GHOST, ball_path: str = GOAL_BALL, color: int = GHOST_GREEN
+) -> list[Message]:
+    """Draw the hull as a ghost of one colour, and a ball of that colour for a goal without an attitude."""
     hull = [painted for part in _hull_parts(shape).values() for painted in part]
-    ghost = [replace(painted, color=GHOST_GREEN) for painted in hull]
-    ball = [Painted(sphere(BALL_RADIUS_IN_LENGTHS * shape.length), GHOST_GREEN)]
-    return [_draw(GOAL_GHOST, ghost, GHOST), _draw(GOAL_BALL, ball, GHOST)]
+    ghost = [replace(painted, color=color) for painted in hull]
+    ball = [Painted(sphere(BALL_RADIUS_IN_LENGTHS * shape.length), color)]
+    return [_draw(ghost_path, ghost, GHOST), _draw(ball_path, ball, GHOST)]
 
 
 def _hull_parts(shape: Shape) -> dict[str, list[Painted]]:

@@ -110,16 +110,18 @@ CONTROLS_SCRIPT = """
   function update_controls() {
     show("play", animator.playing ? "Pause" : "Play");
     element("slider").value = animator.time;
-    // The trail ends at the vehicle: it has one point for each recorded time. The clock has single
-    // precision, hence the millisecond.
-    const now = node("world", "clock").position.x + 0.001;
+    end_at_vehicle(trail, times);
+    requestAnimationFrame(update_controls);
+  }
+
+  function end_at_vehicle(trail, times) {  // a trail has one point for each recorded time
+    const now = node("world", "clock").position.x + 0.001;  // the clock has single precision, hence the millisecond
     const later = times.findIndex((time) => time > now);
     const reached = later < 0 ? times.length : later;
     if (trail.drawRange.count !== reached) {
       trail.setDrawRange(0, reached);
       viewer.set_dirty();
     }
-    requestAnimationFrame(update_controls);
   }
   update_controls();
 """
@@ -185,17 +187,38 @@ REPLAY_DATA_SCRIPT = """
   const times = $times;
 """
 
-REPLAY_PAGE = Template(
-    _page(
-        "$title",
-        CAPTION + CONTROLS + LEGEND.replace("$", "$$"),
-        _inline("$meshcat"),
-        _inline(REPLAY_DATA_SCRIPT),
-        EDGES,
-        _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
-        SEA,
-        _inline(_file("pace.js")),
-        _inline(_file("legend.js").replace("$", "$$")),  # a template's dollars are doubled
+OVERLAY_DATA_SCRIPT = """
+  const overlay = $overlay;
+"""
+
+
+def _literal(text: str) -> str:
+    """A template that stands for a text: its dollars are doubled."""
+    return text.replace("$", "$$")
+
+
+def _replay_page(body: str, *scripts: str, data: str = REPLAY_DATA_SCRIPT) -> Template:
+    """The page of a replay, which needs nothing from outside: meshcat and all data go into it."""
+    return Template(
+        _page(
+            "$title",
+            CAPTION + CONTROLS + _literal(LEGEND + body),
+            _inline("$meshcat"),
+            _inline(data),
+            EDGES,
+            _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
+            SEA,
+            _inline(_file("pace.js")),
+            _inline(_literal(_file("legend.js"))),
+            *map(_literal, scripts),
+        )
     )
+
+
+REPLAY_PAGE = _replay_page("")
+OVERLAY_PAGE = _replay_page(
+    f"<style>{_file('overlay.css')}</style>\n{_file('overlay.html')}",
+    _inline(_file("overlay.js")),
+    data=REPLAY_DATA_SCRIPT + OVERLAY_DATA_SCRIPT,
 )
-"""The page of a replay, which needs nothing from outside: meshcat and all data go into it."""
+"""A replay with several flights in one scene, and plots of them."""

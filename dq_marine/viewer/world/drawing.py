@@ -10,6 +10,7 @@ Everything hangs under `/world`, whose frame is NED:
 | `/world/trail` | past positions |
 | `/world/floor/...`, `/world/surface`, `/world/specks`, `/world/shadow` | the sea |
 | `/world/wake` | foam behind a vessel that floats |
+| `/world/flights/...` | the other flights of an overlaid replay: vehicle, trail, goal (`viewer/overlay.py`) |
 | `/world/things/...` | what is around the vehicle: pillars, vessels, docks, pipes |
 | `/world/dials/...` | nothing to see: numbers for the page's legend (`world/dials.py`) |
 | `/world/clock` | nothing to see: its x is the simulated time [s], which the page displays |
@@ -75,16 +76,27 @@ NED_TO_Z_UP: Quaternion = (0.0, 1.0, 0.0, 0.0)
 class Drawing:
     """Turns snapshots into placements of the things in the scene."""
 
-    def __init__(self, shape: Shape, floor_depth: float | None = None) -> None:
+    def __init__(
+        self,
+        shape: Shape,
+        floor_depth: float | None = None,
+        *,
+        tint: int | None = None,
+        largest: Shape | None = None,
+    ) -> None:
         """Draw nothing yet.
 
         Args:
             shape: the vehicle.
             floor_depth: depth of the sea floor [m], or None for one below vehicle and goal.
+            tint: the vehicle is drawn in shades of it, 0xRRGGBB; None for its own colours.
+            largest: of several vehicles in the scene, whose size camera and surroundings suit; None where it is alone.
         """
         self._shape = shape
-        self._scale = SeaScale.of(shape)
-        self._view = LeashedView(LEASH_IN_LENGTHS * shape.length)
+        self._largest = shape if largest is None else largest
+        self._tint = tint
+        self._scale = SeaScale.of(self._largest)
+        self._view = LeashedView(LEASH_IN_LENGTHS * self._largest.length)
         self._given_floor_depth = floor_depth
         self._floor_depth: float | None = None
         self._things = Things()
@@ -107,10 +119,10 @@ class Drawing:
             *(draw_specks(scale) if surroundings.specks else ()),
             *draw_shadow(self._shape),
             *draw_wake(self._shape),
-            *draw_vehicle(self._shape),
+            *draw_vehicle(self._shape, tint=self._tint),
             *draw_goal(self._shape),
             *self._arrows.scenery(),
-            *place_camera(first, self._shape, scale.sight),
+            *place_camera(first, self._largest, scale.sight),
         ]
 
     def appear(self, snapshot: Snapshot) -> list[Message]:
@@ -142,7 +154,7 @@ class Drawing:
             CLOCK: Placement((snapshot.time, 0.0, 0.0)),  # first: by it the live page knows what may glide
             WORLD: Placement((-north, east, down), NED_TO_Z_UP),
             VEHICLE: pose,
-            **_goal_placements(snapshot),
+            **goal_placements(snapshot),
             **self._things.placements(snapshot),
             **self._arrows.placements(snapshot, body_to_ned),
             **dial_placements(snapshot, body_to_ned),
@@ -204,12 +216,15 @@ def checked_floor_depth(depth: float | None) -> float | None:
     return depth
 
 
-def _goal_placements(snapshot: Snapshot) -> dict[str, Placement]:
+def goal_placements(
+    snapshot: Snapshot, ghost_path: str = GOAL_GHOST, ball_path: str = GOAL_BALL
+) -> dict[str, Placement]:
+    """Return where a goal's ghost and ball stand at a snapshot, by path."""
     position, attitude = snapshot.goal_position_ned, snapshot.goal_quaternion_body_to_ned
     nowhere = hidden_at(vector3(snapshot.position_ned))
     if position is None:
-        return {GOAL_GHOST: nowhere, GOAL_BALL: nowhere}
+        return {ghost_path: nowhere, ball_path: nowhere}
     place = vector3(position)
     if attitude is None:
-        return {GOAL_GHOST: nowhere, GOAL_BALL: Placement(place)}
-    return {GOAL_GHOST: Placement(place, quaternion_wxyz(attitude)), GOAL_BALL: nowhere}
+        return {ghost_path: nowhere, ball_path: Placement(place)}
+    return {ghost_path: Placement(place, quaternion_wxyz(attitude)), ball_path: nowhere}

@@ -48,6 +48,8 @@ class Trail:
         return draw_trail(np.array(self._positions), np.array(self._times))
 
 
-def draw_trail(positions_ned: FloatArray, times: FloatArray) -> Message:
+def draw_trail(
+    positions_ned: FloatArray, times: FloatArray, *, path: str = TRAIL, color: int = TRAIL_YELLOW
+) -> Message:
     """Draw a line through positions, shape (n, 3) [m], and tell the page their times, shape (n,) [s]."""
-    return set_object(TRAIL, polyline(TRAIL, positions_ned, TRAIL_YELLOW, {"times": packed_floats(times)}))
+    return set_object(path, polyline(path, positions_ned, color, {"times": packed_floats(times)}))

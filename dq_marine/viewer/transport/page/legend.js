@@ -39,7 +39,8 @@
   const thrust = arrow_row("legend-thrust", RED), current = arrow_row("legend-current", WHITE);
   const wind = spot_row("legend-wind", PEACH), waves = spot_row("legend-waves", CYAN);
   const goal = spot(GREEN, "goal");
-  const spots = make("div", {className: "row spots"}, ...spot(VIOLET, "bow"), ...spot(YELLOW, "track"), ...goal);
+  const track = typeof overlay === "object" ? [] : spot(YELLOW, "track");  // flights that are overlaid have a colour each
+  const spots = make("div", {className: "row spots"}, ...spot(VIOLET, "bow"), ...track, ...goal);
   element("legend-rows").append(thrust.row, current.row, wind.row, waves.row, spots);
 
   // Numbers
