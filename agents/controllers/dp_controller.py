@@ -228,7 +228,9 @@ class DPController:
         )
         gathered = self.gains.integral * within_reach
         change = np.where(  # what no actuator can make up for is not summed up
-            self._limits == 0.0, 0.0, self._relief(reading.goal_to_body, shortfall) + self.control_period * gathered
+            self._limits == 0.0,
+            0.0,
+            self._relief(reading.goal_to_body, shortfall) + self.control_period * gathered,
         )
         self._integral_in_goal = self._integral_in_goal + both_halves(reading.goal_to_body.T, change)
 

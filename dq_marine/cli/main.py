@@ -15,11 +15,13 @@ from dq_marine.cli import (
     add,
     demo,
     evaluate,
+    export,
     fly,
     leaderboard,
     report,
     scenarios,
     sea,
+    share,
     tasks,
     train,
     validate,
@@ -60,6 +62,8 @@ app.command(epilog=fly.EXAMPLES)(fly.fly)
 app.command(epilog=evaluate.EXAMPLES)(evaluate.evaluate)
 app.command(epilog=leaderboard.EXAMPLES)(leaderboard.leaderboard)
 app.command(epilog=train.EXAMPLES)(train.train)
+app.command(epilog=export.EXAMPLES)(export.export)
+app.command(epilog=share.EXAMPLES)(share.share)
 app.command(epilog=tasks.EXAMPLES)(tasks.tasks)
 app.command(epilog=scenarios.EXAMPLES)(scenarios.scenarios)
 app.add_typer(vehicles_app, name="vehicles")
