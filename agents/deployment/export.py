@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +13,7 @@ from dq_marine.agents.deployment.graph import PolicyGraph
 from dq_marine.agents.deployment.model_card import CARD_FILE, Evaluated, card
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.evaluation import evaluate
-from dq_marine.agents.training.run_folder import RunFolder
+from dq_marine.agents.training.run_folder import RunFolder, RunPlan
 from dq_marine.agents.training.snapshots import read_progress
 from dq_marine.agents.training.trained_policy import TrainedPolicy
 from dq_marine.checks import whole_number
@@ -42,7 +43,7 @@ def export_policy(
     episodes: int = 50,
     seed: int = 0,
     force: bool = False,
-    after_episode: Callable[[], None] = lambda: None,
+    progress: Callable[[float], None] = lambda done: None,
 ) -> Exported:
     """Export the best policy of a run, evaluate it, and write its card into the same folder.
 
@@ -52,7 +53,7 @@ def export_policy(
         episodes: to fly for the card; 0 for none.
         seed: of the first of them.
         force: replace files that are there, the card among them.
-        after_episode: called after each, to tell progress.
+        progress: is told what part of the episodes is flown, from 0 to 1.
 
     Raises:
         InvalidInputError: a target is wrong or there already, or the run has no policy that can be exported.
@@ -71,23 +72,28 @@ def export_policy(
     )
     graph = PolicyGraph(policy.model, policy.normalisation)
     contents = {target: FORMATS[target.suffix](graph, description) for target in targets}
-    evaluated = None
-    if episodes:
-        env = make_environment(plan.settings.environment)
-        name = plan.settings.algorithm.name
-        (score,) = evaluate(
-            env,
-            {name: policy},
-            episodes=episodes,
-            seed=seed,
-            after_episode=lambda agent, episode: after_episode(),
-        )
-        env.close()
-        evaluated = Evaluated(score, seed)
+    evaluated = _evaluated(plan, policy, episodes, seed, progress) if episodes else None
     for target, content in contents.items():
         write_whole(with_folder(target), content)
     write_whole(card_file, card(targets, plan, description, evaluated))
     return Exported((*targets, card_file), description, evaluated)
+
+
+def _evaluated(
+    plan: RunPlan, policy: TrainedPolicy, episodes: int, seed: int, progress: Callable[[float], None]
+) -> Evaluated:
+    """Fly episodes in the environment of the training."""
+    flown = itertools.count(1)
+    env = make_environment(plan.settings.environment)
+    (score,) = evaluate(
+        env,
+        {plan.settings.algorithm.name: policy},
+        episodes=episodes,
+        seed=seed,
+        after_episode=lambda agent, episode: progress(next(flown) / episodes),
+    )
+    env.close()
+    return Evaluated(score, seed)
 
 
 def _checked_targets(targets: Sequence[Path], *, force: bool) -> Path:

@@ -84,6 +84,9 @@ def _quiet() -> Iterator[None]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)
             warnings.simplefilter("ignore", FutureWarning)
+            warnings.filterwarnings(
+                "ignore", "# The axis name: batch", UserWarning
+            )  # inputs share it, as meant
             yield
     finally:
         for one, level in zip(loggers, before, strict=True):

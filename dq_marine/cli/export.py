@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from dq_marine.cli.common import console, examples
+from dq_marine.cli.common import console, examples, shown_part
 
 EXAMPLES = examples(
     "dq-marine export runs/ppo --out station/policy.onnx",
@@ -39,21 +39,13 @@ def export(
     The file says what it was trained in, so that `fly`, `evaluate` and `leaderboard` need nothing else: give it to them
     with --policy. ONNX is data; unlike a run's folder, nothing of it is unpickled.
     """
-    from rich.progress import Progress
-
     from dq_marine.agents.deployment.export import export_policy
     from dq_marine.agents.evaluation.evaluation import score_table
     from dq_marine.agents.training.run_folder import RunFolder
 
-    with Progress(console=console, transient=True) as bar:
-        flying = bar.add_task("evaluating", total=episodes or None)
+    with shown_part("Evaluating") as progress:
         exported = export_policy(
-            RunFolder(run),
-            out,
-            episodes=episodes,
-            seed=seed,
-            force=force,
-            after_episode=lambda: bar.update(flying, advance=1),
+            RunFolder(run), out, episodes=episodes, seed=seed, force=force, progress=progress
         )
     if exported.evaluated is not None:
         console.print(score_table([exported.evaluated.score]))
