@@ -57,8 +57,8 @@ class PolicyGraph(nn.Module):
         normalised = [one(raw) for one, raw in zip(self._normalised, observations, strict=True)]
         named = dict(zip(self.input_names, normalised, strict=True))
         decided: Tensor = self._decided(named if self._goals else normalised[0])
-        if self._squashed:  # within [-1, 1], to be stretched over the space
-            return self._low + 0.5 * (decided + 1.0) * (self._high - self._low)
+        if self._squashed:  # within [-1, 1], to be stretched over the space, which round-off may leave
+            decided = self._low + 0.5 * (decided + 1.0) * (self._high - self._low)
         return torch.maximum(torch.minimum(decided, self._high), self._low)
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from dq_marine.agents.choice import common_environment
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, scenario_settings
 from dq_marine.agents.keywords import with_changes
+from dq_marine.agents.policies import is_exported
 from dq_marine.agents.preset_files import read_environment, read_settings, validate_settings
 from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
 from dq_marine.cli.keyword_values import read_keywords
@@ -117,8 +118,9 @@ def requested_environment(
             )
         return options.applied(scenario_settings(scenario))
     if preset is not None and runs:
+        option = "--policy" if is_exported(runs[0]) else "--run"
         raise InvalidInputError(
-            f"--preset {preset} and the policy {runs[0]} both say what to fly in; give one of them"
+            f"--preset {preset} and {option} {runs[0]} both say what to fly in; give one of them"
         )
     base = DEFAULT_ENVIRONMENT if preset is None else read_environment(preset)
     return common_environment(runs, base=base, change=options.applied)

@@ -157,7 +157,8 @@ def fly(
     named = {"--agent": agent, "--run": run, "--policy": policy}
     given = [f"{option} {value}" for option, value in named.items() if value is not None]
     if len(given) > 1:
-        raise InvalidInputError(f"{' and '.join(given)} name {len(given)} agents; give one of them")
+        number = {2: "two", 3: "three"}[len(given)]
+        raise InvalidInputError(f"{' and '.join(given)} name {number} agents; give one of them")
     runs = requested_policies([policy]) if policy is not None else [] if run is None else [run]
     baselines = [] if runs else [agent or Baseline.CONTROLLER]
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))

@@ -88,7 +88,10 @@ def test_goals_limits_and_raw_observations(
     with torch.no_grad():  # an untrained network asks for little; here the limits are to be reached
         last.weight.mul_(gain)
     spaces = envs.observation_space.spaces if goals else {"observation": envs.observation_space}
-    inputs = {name: scattered(rng, space.shape[0], 1000) / 50.0 for name, space in spaces.items()}
+    share = 0.02 if normalised else 0.002  # what a network is to be given as it comes is of order one
+    inputs = {
+        name: np.float32(share) * scattered(rng, space.shape[0], 1000) for name, space in spaces.items()
+    }
     if normalised:
         running = envs.obs_rms if goals else {"observation": envs.obs_rms}
         for name, one in running.items():

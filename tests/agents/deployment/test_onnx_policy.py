@@ -189,7 +189,7 @@ def test_other_files_and_none_are_refused(ppo: Any, tmp_path: Path) -> None:
     (tmp_path / "broken.onnx").write_bytes(sealed(SEAL_KEY.encode() + b"\x12\x40" + UNSEALED.encode()))
     assert_refused(run("evaluate", "--policy", tmp_path / "broken.onnx"), "onnxruntime cannot load")
     two = run("fly", "--policy", ppo.onnx, "--run", ppo.run.path, "--agent", "zero")
-    assert_refused(two, "--agent zero and --run .* and --policy .* name 3 agents")
+    assert_refused(two, "--agent zero and --run .* and --policy .* name three agents")
 
 
 def test_onnxruntime_is_asked_for_by_its_extra(ppo: Any, monkeypatch: pytest.MonkeyPatch) -> None:
