@@ -2,7 +2,7 @@
 
 The public names stand in `__init__.pyi`, one line each, and are imported on first use. The controllers, the
 evaluation and the flights need only what the environments need. Training and trained policies need the extra:
-pip install "dq-marine[agents]".
+pip install "dq-marine[agents]"; exported policies fly with the extra `deploy` alone.
 """
 
 from dq_marine.util.lazy_names import lazy_attributes, public_names

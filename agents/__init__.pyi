@@ -7,6 +7,8 @@ from dq_marine.agents.controllers.baselines import make_baseline as make_baselin
 from dq_marine.agents.controllers.dp_controller import DPController as DPController
 from dq_marine.agents.controllers.mpc import MPCController as MPCController
 from dq_marine.agents.controllers.trajectory_control import LQRController as LQRController
+from dq_marine.agents.deployment.export import export_policy as export_policy
+from dq_marine.agents.deployment.onnx_policy import OnnxPolicy as OnnxPolicy
 from dq_marine.agents.evaluation.episodes import Episode as Episode
 from dq_marine.agents.evaluation.episodes import fly_episode as fly_episode
 from dq_marine.agents.evaluation.evaluation import Score as Score

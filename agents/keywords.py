@@ -57,13 +57,16 @@ def with_changes(
     Args:
         settings: to begin with; where another environment is asked for, their keywords do not count.
         keywords: new values. A dictionary changes the entries that it has; None takes the environment's default.
-        identifier: of another environment, or the short name of a task; None keeps the settings'.
+        identifier: of another environment, or the short name of a task; None keeps the settings'. With a module that
+            registers it before a colon, the same environment is no other.
 
     Raises:
         InvalidInputError: see `check_keywords`.
     """
     if identifier is not None and full_id(identifier) != settings.id:
-        settings = EnvironmentSettings(id=full_id(identifier))
+        same = identifier.rpartition(":")[2] == settings.id
+        keywords_before = settings.keywords if same else {}
+        settings = EnvironmentSettings(id=full_id(identifier), keywords=keywords_before)
     changed = EnvironmentSettings(id=settings.id, keywords=_merged(settings.keywords, keywords))
     check_keywords(changed)
     return changed

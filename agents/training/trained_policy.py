@@ -34,8 +34,8 @@ class TrainedPolicy:
         snapshot = folder.trained_snapshot
         model_class = MODEL_CLASSES[self.settings.algorithm.name]
         with refusing_damage(snapshot):
-            self._model = model_class.load(snapshot / MODEL_FILE, device="cpu")
-            self._normalisation = pickle.loads((snapshot / NORMALISATION_FILE).read_bytes())  # noqa: S301 - said above
+            self.model = model_class.load(snapshot / MODEL_FILE, device="cpu")
+            self.normalisation = pickle.loads((snapshot / NORMALISATION_FILE).read_bytes())  # noqa: S301 - said above
 
     def reset(self, env: gym.Env[Any, Any]) -> None:
         """Check that the policy fits the environment; it keeps nothing from step to step.
@@ -44,8 +44,8 @@ class TrainedPolicy:
             InvalidInputError: it was trained on other observations or actions.
         """
         for name, trained, found in (
-            ("observation", self._model.observation_space, env.observation_space),
-            ("action", self._model.action_space, env.action_space),
+            ("observation", self.model.observation_space, env.observation_space),
+            ("action", self.model.action_space, env.action_space),
         ):
             if space_shape(trained) != space_shape(found):
                 raise InvalidInputError(
@@ -56,5 +56,5 @@ class TrainedPolicy:
 
     def act(self, observation: Observation) -> Action:
         """Return the most likely action, shape (n,)."""
-        action, _ = self._model.predict(self._normalisation.normalize_obs(observation), deterministic=True)
+        action, _ = self.model.predict(self.normalisation.normalize_obs(observation), deterministic=True)
         return np.asarray(action, dtype=np.float32)

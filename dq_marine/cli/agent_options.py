@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 from dq_marine.agents.choice import common_environment
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, scenario_settings
 from dq_marine.agents.keywords import with_changes
+from dq_marine.agents.policies import is_exported
 from dq_marine.agents.preset_files import read_environment, read_settings, validate_settings
 from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
 from dq_marine.cli.keyword_values import read_keywords
@@ -18,6 +20,9 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import vehicle_names
 
 DEFAULT_ALGORITHM = "ppo"
+
+HUB = "hf://"
+"""What the address of a policy on the Hugging Face Hub begins with."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +76,23 @@ class EnvironmentOptions:
         }
 
 
+def requested_policies(policies: Sequence[str]) -> list[Path]:
+    """Return the paths of policies, those on the hub downloaded if need be.
+
+    Args:
+        policies: exported files, folders of training runs, and addresses as hf://OWNER/NAME@REVISION.
+
+    Raises:
+        InvalidInputError: an address is wrong, or the hub refuses.
+        MissingDependencyError: the hub's client is needed, and is not installed.
+    """
+    if any(one.startswith(HUB) for one in policies):
+        from dq_marine.agents.deployment.hub import fetched  # here: few need it
+
+        return [fetched(one) if one.startswith(HUB) else Path(one) for one in policies]
+    return [Path(one) for one in policies]
+
+
 def requested_environment(
     runs: list[Path],
     options: EnvironmentOptions,
@@ -78,16 +100,16 @@ def requested_environment(
     preset: str | None = None,
     scenario: Scenario | None = None,
 ) -> EnvironmentSettings:
-    """Return the environment of training runs, of a preset, or station keeping, with what was asked for in its place.
+    """Return the environment of policies, of a preset, or station keeping, with what was asked for in its place.
 
     Args:
-        runs: folders of training runs.
+        runs: folders of training runs, or exported files.
         options: what was asked for.
         preset: a name or a file's path; None takes the runs' environment or the default.
         scenario: whose environment is taken, of whatever task and in whatever conditions the runs were trained.
 
     Raises:
-        InvalidInputError: a folder holds no run, the runs disagree, or an option is wrong.
+        InvalidInputError: there is no policy at a path, the policies disagree, or an option is wrong.
     """
     if scenario is not None:
         if preset is not None:
@@ -96,8 +118,9 @@ def requested_environment(
             )
         return options.applied(scenario_settings(scenario))
     if preset is not None and runs:
+        option = "--policy" if is_exported(runs[0]) else "--run"
         raise InvalidInputError(
-            f"--preset {preset} and --run {runs[0]} both say what to fly in; give one of them"
+            f"--preset {preset} and {option} {runs[0]} both say what to fly in; give one of them"
         )
     base = DEFAULT_ENVIRONMENT if preset is None else read_environment(preset)
     return common_environment(runs, base=base, change=options.applied)

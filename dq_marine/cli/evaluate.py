@@ -14,6 +14,7 @@ from dq_marine.cli.options import (
     CurrentOption,
     EnvironmentPresetOption,
     LevelOption,
+    PoliciesOption,
     PrintPresetOption,
     SetOption,
     TaskOption,
@@ -30,6 +31,7 @@ EXAMPLES = examples(
     "dq-marine evaluate",
     "dq-marine evaluate --run runs/ppo --agent controller --agent zero --episodes 100",
     "dq-marine evaluate --run runs/ppo --set current=0.5",
+    "dq-marine evaluate --policy policy.onnx --agent controller",
     "dq-marine evaluate --scenario StationKeeping/strong_current --scenario StationKeeping/failed_dvl",
     "dq-marine evaluate --scenario Encounter --agent controller --json imazu.json",
     "dq-marine evaluate --agent controller --set control_period=0.2 --set reward.effort=0.1",
@@ -50,13 +52,14 @@ def evaluate(
         typer.Option(
             "--agent",
             help="A baseline; may be repeated. lqr and mpc need the extra `mpc`.",
-            show_default="controller, zero and random, if no --run is given",
+            show_default="controller, zero and random, if neither --run nor --policy is given",
         ),
     ] = None,
     run: Annotated[
         list[Path] | None,
         typer.Option("--run", help="Folder of a training run; may be repeated. Load only runs you trust."),
     ] = None,
+    policy: PoliciesOption = None,
     episodes: Annotated[
         int | None,
         typer.Option(
@@ -108,10 +111,10 @@ def evaluate(
     from dq_marine.agents.controllers.baselines import BASELINES
     from dq_marine.agents.environments import make_environment
     from dq_marine.agents.evaluation.evaluation import score_table
-    from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment
+    from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment, requested_policies
     from dq_marine.cli.scenario_scores import Flights, evaluate_scenarios
 
-    runs = run or []
+    runs = [*(run or []), *requested_policies(policy or [])]
     baselines = agent or ([] if runs else [Baseline(name) for name in BASELINES])
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
     if scenario:

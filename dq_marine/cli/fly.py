@@ -16,6 +16,7 @@ from dq_marine.cli.options import (
     CurrentOption,
     EnvironmentPresetOption,
     LevelOption,
+    PolicyOption,
     PrintPresetOption,
     ScenarioOption,
     SetOption,
@@ -41,6 +42,7 @@ EXAMPLES = examples(
     "dq-marine fly --scenario StationKeeping/cross_current --live",
     "dq-marine fly --scenario my_scenario.toml --run runs/ppo --html policy.html",
     "dq-marine fly --run runs/ppo --html ppo.html --plot ppo.png --seed 3",
+    "dq-marine fly --policy policy.onnx --html policy.html",
     "dq-marine fly --mp4 flight.mp4 --fps 30",
     "dq-marine fly --agent zero --current 0.2,-0.1,0 --seconds 60 --html drift.html",
     "dq-marine fly --set actuation=thrusters --trajectory flight.csv",
@@ -56,6 +58,7 @@ def fly(
         Path | None,
         typer.Option("--run", help="Folder of a training run: its policy flies. Load only runs you trust."),
     ] = None,
+    policy: PolicyOption = None,
     html: Annotated[Path | None, typer.Option("--html", help="Write a replay into this file.")] = None,
     mp4: Annotated[
         Path | None,
@@ -148,13 +151,16 @@ def fly(
     from dq_marine.agents.choice import make_agents
     from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, episode_table
     from dq_marine.agents.evaluation.flight import fly as fly_once
-    from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment
+    from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment, requested_policies
     from dq_marine.envs.scenarios.files import load_scenario
 
-    if agent is not None and run is not None:
-        raise InvalidInputError(f"--agent {agent} and --run {run} name two agents; give one of them")
-    runs = [] if run is None else [run]
-    baselines = [agent or Baseline.CONTROLLER] if run is None else []
+    named = {"--agent": agent, "--run": run, "--policy": policy}
+    given = [f"{option} {value}" for option, value in named.items() if value is not None]
+    if len(given) > 1:
+        number = {2: "two", 3: "three"}[len(given)]
+        raise InvalidInputError(f"{' and '.join(given)} name {number} agents; give one of them")
+    runs = requested_policies([policy]) if policy is not None else [] if run is None else [run]
+    baselines = [] if runs else [agent or Baseline.CONTROLLER]
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
     begun = None if scenario is None else load_scenario(scenario, task=task)
     environment = requested_environment(runs, options, preset=preset, scenario=begun)
@@ -172,7 +178,7 @@ def fly(
         )
     if fps is not None and mp4 is None:
         raise InvalidInputError(f"--fps {fps:g} is about a video; name its file with --mp4, or leave it out")
-    title = f"{run or baselines[0]}, seed {{seed}}"
+    title = f"{policy or run or baselines[0]}, seed {{seed}}"
     if seconds is None and (panel or teleop):
         seconds = SECONDS_WITH_PANEL
     elif seconds is None and begun is None:

@@ -20,6 +20,7 @@ EXAMPLES = examples(
     "dq-marine leaderboard --scenarios",
     "dq-marine leaderboard --scenarios --episodes 0 --task Encounter --agent controller --agent zero",
     "dq-marine leaderboard --scenarios --task StationKeeping --agent controller --policy runs/ppo",
+    "dq-marine leaderboard --scenarios --episodes 0 --policy policy.onnx --agent controller",
 )
 
 
@@ -45,11 +46,12 @@ def leaderboard(
         ),
     ] = None,
     policy: Annotated[
-        list[Path] | None,
+        list[str] | None,
         typer.Option(
             "--policy",
-            help="Folder of a training run, whose policy flies what it fits: its task, with its vehicle and sensors; "
-            "may be repeated. Load only runs you trust.",
+            help="Exported policy (.onnx), hf://OWNER/NAME@REVISION on the Hugging Face Hub, or folder of a training "
+            "run: it flies what it fits, its task, with its vehicle and sensors; may be repeated. Load only runs you "
+            "trust.",
         ),
     ] = None,
     scenarios: Annotated[
@@ -82,6 +84,7 @@ def leaderboard(
     from rich.progress import Progress
 
     from dq_marine.backend.workers import usable_cores
+    from dq_marine.cli.agent_options import requested_policies
     from dq_marine.report.leaderboard import Entry, Kept, Plan, Result, entries, fly_all, scenario_entries
     from dq_marine.report.leaderboard_page import markdown
     from dq_marine.report.leaderboard_policies import policies_of
@@ -91,7 +94,7 @@ def leaderboard(
     check_folder(out)
     if not (episodes or scenarios):
         raise InvalidInputError("--episodes 0 leaves nothing to fly; give --scenarios, too, or more episodes")
-    policies = policies_of(policy or [])
+    policies = policies_of(requested_policies(policy or []))
     agents = [str(one) for one in agent or ([] if policies else [Baseline.CONTROLLER])]
     tasks = task or list(dict.fromkeys(one.task for one in policies if not agents))
     wanted: list[Entry] = []

@@ -16,11 +16,13 @@ from dq_marine.cli import (
     compare,
     demo,
     evaluate,
+    export,
     fly,
     leaderboard,
     report,
     scenarios,
     sea,
+    share,
     tasks,
     train,
     validate,
@@ -62,6 +64,8 @@ app.command(epilog=evaluate.EXAMPLES)(evaluate.evaluate)
 app.command(epilog=compare.EXAMPLES)(compare.compare)
 app.command(epilog=leaderboard.EXAMPLES)(leaderboard.leaderboard)
 app.command(epilog=train.EXAMPLES)(train.train)
+app.command(epilog=export.EXAMPLES)(export.export)
+app.command(epilog=share.EXAMPLES)(share.share)
 app.command(epilog=tasks.EXAMPLES)(tasks.tasks)
 app.command(epilog=scenarios.EXAMPLES)(scenarios.scenarios)
 app.add_typer(vehicles_app, name="vehicles")

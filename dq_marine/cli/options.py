@@ -70,6 +70,20 @@ SetOption = Annotated[
         "null takes the default. A wrong key is answered with the list of keys.",
     ),
 ]
+PolicyOption = Annotated[
+    str | None,
+    typer.Option(
+        "--policy",
+        help="Exported policy (.onnx), or hf://OWNER/NAME@REVISION on the Hugging Face Hub: it flies, without torch.",
+    ),
+]
+PoliciesOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--policy",
+        help="Exported policy (.onnx), or hf://OWNER/NAME@REVISION on the Hugging Face Hub; may be repeated.",
+    ),
+]
 PrintPresetOption = Annotated[
     bool,
     typer.Option("--print-preset", help="Print the settings as TOML, which --preset reads, and exit."),

@@ -185,7 +185,7 @@ def fly_entry(entry: Entry, plan: Plan, policy: Policy | None = None) -> Result:
         scenario = load_scenario(f"{entry.task}/{entry.scenario}")
         plan, options = Plan(1, scenario.seed), dict(scenario.reset)
     env = make_environment(environment_of(entry))
-    baselines, runs = ([entry.agent], []) if policy is None else ([], [policy.folder])
+    baselines, runs = ([entry.agent], []) if policy is None else ([], [policy.path])
     agents = make_agents(baselines, runs, env, seed=plan.seed)
     flown: list[dict[str, float]] = []
 

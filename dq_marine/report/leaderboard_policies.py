@@ -9,27 +9,26 @@ from pathlib import Path
 from typing import Any
 
 from dq_marine.agents.controllers.baselines import AGENTS
-from dq_marine.agents.environments import make_environment, marine, space_shape
+from dq_marine.agents.environments import make_environment, marine
+from dq_marine.agents.policies import policy_digest, policy_name, trained_environment
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.agents.training.run_folder import MODEL_FILE, RunFolder
-from dq_marine.agents.training.snapshots import digests_of
 from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 
 
 @dataclass(frozen=True)
 class Policy:
-    """The policy of a training run.
+    """A trained policy.
 
     Attributes:
-        name: of the run's folder.
-        folder: of the run.
+        name: of the run's folder, or of the exported file.
+        path: of that folder or file.
         digest: a hash over its model: results of another are not its.
         environment: that it was trained in.
     """
 
     name: str
-    folder: Path
+    path: Path
     digest: str
     environment: EnvironmentSettings
 
@@ -45,32 +44,33 @@ class Policy:
         return str(self.environment.keywords.get("vehicle", default))
 
     @cached_property
-    def shapes(self) -> Any:
-        """Of what it observes and what it commands."""
-        return _shapes(self.environment)
+    def interface(self) -> Any:
+        """What it observes and what it commands."""
+        return _interface(self.environment)
 
     def fits(self, environment: EnvironmentSettings) -> bool:
-        """Whether an environment is of its task, and shows and takes as many numbers as that of its training."""
-        return environment.id == self.task and _shapes(environment) == self.shapes
+        """Whether an environment is of its task, and shows and takes the same numbers as that of its training."""
+        return environment.id == self.task and _interface(environment) == self.interface
 
 
-def _shapes(environment: EnvironmentSettings) -> Any:
-    env = make_environment(environment)
-    return space_shape(env.observation_space), space_shape(env.action_space)
+def _interface(environment: EnvironmentSettings) -> Any:
+    """Return names and sizes of what is observed, and names of what is commanded."""
+    inner = marine(make_environment(environment))
+    return [(one.name, one.size) for one in inner.observations], inner.action_names
 
 
-def policies_of(runs: Sequence[Path]) -> list[Policy]:
-    """Return the policies of training runs.
+def policies_of(paths: Sequence[Path]) -> list[Policy]:
+    """Return the policies of training runs and of exported files.
 
     Raises:
-        InvalidInputError: a folder holds no run or no model, or its name is another agent's.
+        InvalidInputError: there is no policy at a path, or its name is another agent's.
+        MissingDependencyError: the library that reads an exported policy is not installed.
     """
     found: list[Policy] = []
-    for run in runs:
-        folder, name = RunFolder(run), run.resolve().name
+    for path in paths:
+        name = policy_name(path)
         if name in (*AGENTS, *(one.name for one in found)):
-            raise InvalidInputError(f"there are two agents called {shown(name)}; rename the folder {run}")
-        environment = folder.read_plan().settings.environment
-        digest = digests_of(folder.trained_snapshot)[MODEL_FILE][:16]
-        found.append(Policy(name, run.resolve(), digest, environment))
+            raise InvalidInputError(f"there are two agents called {shown(name)}; rename {path}")
+        environment = trained_environment(path)
+        found.append(Policy(name, path.absolute(), policy_digest(path), environment))
     return found

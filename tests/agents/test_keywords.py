@@ -62,6 +62,9 @@ def test_a_module_may_register_the_task(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.syspath_prepend(tmp_path)
     try:
         assert "start_radius" in known_keywords("my_task:my/Task-v0")
+        exported = EnvironmentSettings(id="my/Task-v0", keywords={"current": 0.3})
+        named = with_changes(exported, {}, identifier="my_task:my/Task-v0")
+        assert named == EnvironmentSettings(id="my_task:my/Task-v0", keywords={"current": 0.3})
     finally:
         sys.modules.pop("my_task", None)
     unregister_task("my/Task-v0")

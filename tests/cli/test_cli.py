@@ -20,6 +20,9 @@ COMMANDS = [
     ["fly"],
     ["evaluate"],
     ["train"],
+    ["export"],
+    ["share"],
+    ["leaderboard"],
     ["report"],
     ["sea"],
     ["manoeuvre"],
@@ -41,7 +44,7 @@ def python(code: str) -> subprocess.CompletedProcess[str]:
 def test_help_lists_the_commands() -> None:
     for arguments in (["--help"], ["-h"], []):
         output = run(*arguments).output
-        for command in ("demo", "fly", "evaluate", "train", "vehicles"):
+        for command in ("demo", "fly", "evaluate", "train", "export", "share", "vehicles"):
             assert command in output
 
 

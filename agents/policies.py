@@ -1,0 +1,61 @@
+"""What a path of a trained policy leads to: the folder of a training run, or a file that was exported from one."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from dq_marine.agents.controllers.baselines import Agent
+from dq_marine.agents.deployment.onnx_policy import ENDING, OnnxPolicy, policy_bytes
+from dq_marine.agents.settings import EnvironmentSettings
+from dq_marine.agents.training.run_folder import MODEL_FILE, RunFolder
+from dq_marine.agents.training.snapshots import digests_of
+
+
+def is_exported(policy: Path) -> bool:
+    """Whether a path is that of an exported file; else it is taken for a run's folder."""
+    return policy.suffix == ENDING and not policy.is_dir()
+
+
+def policy_name(policy: Path) -> str:
+    """Return what a policy goes by: the name of its folder, or of its file without the ending."""
+    return policy.stem if is_exported(policy) else policy.resolve().name
+
+
+def trained_environment(policy: Path) -> EnvironmentSettings:
+    """Return the environment that a policy was trained in.
+
+    Raises:
+        InvalidInputError: there is no policy, or it is damaged.
+        MissingDependencyError: the library that reads it is not installed.
+    """
+    if is_exported(policy):
+        return OnnxPolicy(policy).description.environment
+    return RunFolder(policy).read_plan().settings.environment
+
+
+def policy_digest(policy: Path) -> str:
+    """Return a hash over a policy, 16 digits: what another one of the same name flew is not its own.
+
+    Raises:
+        InvalidInputError: there is no policy, or it is damaged.
+    """
+    if is_exported(policy):
+        return hashlib.sha256(policy_bytes(policy)).hexdigest()[:16]
+    return digests_of(RunFolder(policy).trained_snapshot)[MODEL_FILE][:16]
+
+
+def load_policy(policy: Path) -> Agent:
+    """Return a policy as an agent.
+
+    A run is unpickled, which runs whatever code it holds: load only runs that you trust. An exported file is data.
+
+    Raises:
+        InvalidInputError: there is no policy, or it is damaged.
+        MissingDependencyError: the libraries that it needs are not installed.
+    """
+    if is_exported(policy):
+        return OnnxPolicy(policy)
+    from dq_marine.agents.training.trained_policy import TrainedPolicy  # here: it imports torch
+
+    return TrainedPolicy(RunFolder(policy))
