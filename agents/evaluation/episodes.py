@@ -110,7 +110,7 @@ class Episode:
     def columns(self) -> dict[str, Array]:
         """Return everything by name, the unit at its end, each of shape (n + 1,).
 
-        Actions, rewards and pushes are those of the period that begins at the instant; at the last instant they are NaN.
+        Actions, pushes and rewards are those of the period that begins at the instant; at the last one they are NaN.
         """
 
         def of_periods(values: Array) -> Array:
@@ -197,7 +197,7 @@ def fly_episode(
 
 
 def with_pushes(episode: Episode, pushed: Sequence[bool]) -> Episode:
-    """Return an episode that says in which of its control periods a person pulled the vehicle by hand; itself if in none.
+    """Return an episode that says in which control periods a person pulled the vehicle by hand; itself if in none.
 
     Args:
         episode: of n periods.

@@ -119,7 +119,7 @@ class _Session:
             self.env = self._recorder.recording(
                 flight.env,
                 lambda: self._conductor.flown_by == HELM,
-                lambda: bool(self._conductor.pushed) and self._conductor.pushed[-1],
+                lambda: self._conductor.pushed[-1],
             )
 
     def _show_start(self, page: LiveViewer, seed: int) -> None:

@@ -20,7 +20,7 @@ STRONGEST = 2.0
 """Acceleration that the hand can give the point that it holds [m/s^2]: its force is this times the mass felt there."""
 
 STIFFEST = 0.3
-"""Of the spring: its frequency times the control period, over which the force is held. Beyond 1 it would be unstable."""
+"""Of the spring: its frequency times the control period, over which its force is held; about 1 would be unstable."""
 
 
 class Hold(NamedTuple):
@@ -69,9 +69,7 @@ def spring_force(env: MarineEnv, hold: Hold) -> Array:
     turning, moving = (np.array(part) for part in motion.velocity)
     velocity = rotation @ (moving + np.cross(turning, point))
     mass = mass_felt(unpack(env.base_parameters, env.episode.parameters).inertia, point)
-    frequency = min(
-        math.sqrt(STRONGEST / env.flown_vehicle.dimensions.length), STIFFEST / env.control_period
-    )
+    frequency = min(math.sqrt(STRONGEST / env.flown_vehicle.dimensions.length), STIFFEST / env.control_period)
     force: Array = mass * (frequency**2 * stretch - 2.0 * frequency * velocity)
     return force * min(1.0, mass * STRONGEST / max(float(np.linalg.norm(force)), math.ulp(0.0)))
 
@@ -79,7 +77,7 @@ def spring_force(env: MarineEnv, hold: Hold) -> Array:
 def mass_felt(inertia: Inertia, point: Array) -> float:
     """Return the mass [kg] of a point of a body in the direction in which it gives way most easily."""
     gives_way = np.empty((3, 3))
-    for axis, direction in enumerate(np.eye(3).tolist()):
-        turning, moving = twist_from_momentum(inertia, wrench_at(point, tuple(direction)))
+    for axis, direction in enumerate(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))):
+        turning, moving = twist_from_momentum(inertia, wrench_at(point, direction))
         gives_way[:, axis] = np.array(moving) + np.cross(turning, point)
     return 1.0 / float(np.linalg.eigvalsh(gives_way)[-1])

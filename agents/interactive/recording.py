@@ -83,8 +83,8 @@ class Recorder(AbstractContextManager["Recorder"]):
                     identifier,
                     algorithm_name="flown in the live page",
                     description=(
-                        f"flown in the live page of dq-marine; {BY_PERSON} tells who was at the helm, {PUSHED} in which "
-                        "steps the vehicle was pulled by hand"
+                        f"flown in the live page of dq-marine; {BY_PERSON} tells who was at the helm, {PUSHED} in "
+                        "which steps the vehicle was pulled by hand"
                     ),
                 )
             if dataset.total_episodes:
@@ -148,11 +148,12 @@ class StepData:
         truncated: bool | None = None,
     ) -> dict[str, Any]:
         """Return a step's data: the action as it was held, who gave it, and whether the vehicle was pushed besides."""
+        pushed = action is not None and self._pushed()  # a reset is no step
         return {
             "action": None if action is None else np.clip(action, -1.0, 1.0),
             "observation": obs,
             "reward": rew,
             "terminated": terminated,
             "truncated": truncated,
-            "info": {**info, BY_PERSON: self._by_person(), PUSHED: self._pushed()},
+            "info": {**info, BY_PERSON: self._by_person(), PUSHED: pushed},
         }

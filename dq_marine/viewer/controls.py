@@ -204,7 +204,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Pull:
-    """A hold on a thing in the scene, which a person pulls by a point of it; the event's value is that point and the hand.
+    """A hold on a thing in the scene, which a person pulls by a point; the event's value is that point and the hand.
 
     Both are triples [m], the point in the thing's axes and the hand in the world's; None once it is let go.
 

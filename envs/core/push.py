@@ -63,5 +63,7 @@ def wrench_at(point: NDArray[np.float64], force: tuple[float, float, float]) -> 
 def _within(name: str, values: Sequence[float], most: float, unit: str) -> NDArray[np.float64]:
     checked = finite_array(name, values, 3)
     if not length_of(checked) <= most:
-        raise InvalidInputError(f"{name} = {checked.tolist()} {unit} is too large; give at most {most:g} {unit}")
+        raise InvalidInputError(
+            f"{name} = {checked.tolist()} {unit} is too large; give at most {most:g} {unit}"
+        )
     return checked

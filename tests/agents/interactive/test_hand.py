@@ -21,7 +21,10 @@ NORTH = Event(PULL, ((0.0, 0.0, 0.0), (50.0, 0.0, 5.0)))
 @pytest.fixture(scope="module")
 def env():
     made = gym.make("dq_marine/StationKeeping-v0", disable_env_checker=True, current=0.0).unwrapped
-    made.reset(seed=1, options={"position": [0.0, 0.0, 5.0], "quaternion": [1.0, 0.0, 0.0, 0.0], "velocity": [0.0] * 6})
+    made.reset(
+        seed=1,
+        options={"position": [0.0, 0.0, 5.0], "quaternion": [1.0, 0.0, 0.0, 0.0], "velocity": [0.0] * 6},
+    )
     return made
 
 
@@ -38,9 +41,7 @@ def test_the_mass_felt_is_the_least_of_the_point(env) -> None:
 
 def test_the_spring_pulls_towards_the_hand_in_proportion_up_to_its_limit(env) -> None:
     point = (0.1, 0.0, 0.0)
-    near, twice, far = (
-        spring_force(env, Hold(point, (0.1 + way, 0.0, 5.0))) for way in (0.05, 0.1, 1e5)
-    )
+    near, twice, far = (spring_force(env, Hold(point, (0.1 + way, 0.0, 5.0))) for way in (0.05, 0.1, 1e5))
     assert_allclose(near / np.linalg.norm(near), [1.0, 0.0, 0.0], atol=1e-9)
     assert_allclose(twice, 2.0 * near, rtol=1e-6)
     strongest = STRONGEST * mass_felt(env.base_parameters.inertia, np.array(point))
@@ -71,7 +72,9 @@ def test_the_vehicle_follows_the_hand_until_it_is_let_go(flight, tmp_path) -> No
 def test_it_settles_where_the_hand_is_without_ringing(flight, tmp_path) -> None:
     there = Event(PULL, ((0.0, 0.0, 0.0), (1.0, 0.0, 5.0)))
     episode, _ = flight(
-        [[there], *[[]] * 119], seconds=13.0, environment=with_keywords(STILL, start_radius=0.0),
+        [[there], *[[]] * 119],
+        seconds=13.0,
+        environment=with_keywords(STILL, start_radius=0.0),
         outputs=Outputs(trajectory=tmp_path / "flight.csv"),
     )
     north = episode.columns()["north_m"]

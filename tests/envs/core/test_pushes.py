@@ -21,7 +21,9 @@ TURNED = [0.8, 0.36, -0.48, 0.0]
 
 
 def environment(**keywords: Any) -> Any:
-    return gym.make("dq_marine/StationKeeping-v0", disable_env_checker=True, current=0.0, **keywords).unwrapped
+    return gym.make(
+        "dq_marine/StationKeeping-v0", disable_env_checker=True, current=0.0, **keywords
+    ).unwrapped
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +32,9 @@ def env() -> Any:
 
 
 def begin(env: Any, **options: Any) -> None:
-    env.reset(seed=2, options={"position": [0.5, 0.2, 6.0], "quaternion": TURNED, "velocity": [0.1] * 6, **options})
+    env.reset(
+        seed=2, options={"position": [0.5, 0.2, 6.0], "quaternion": TURNED, "velocity": [0.1] * 6, **options}
+    )
 
 
 def test_force_and_moment_are_those_at_the_point(env) -> None:

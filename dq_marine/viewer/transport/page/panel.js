@@ -140,7 +140,7 @@ const panel = (() => {
       bind(control.key, `${control.label} by dragging alone, or not`, () => box.click());
       explain(["Ctrl", "drag"], `${control.label} by the point under the pointer; Alt does the same`);
       holds.push({say: (words) => say(control.name, words), thing: control.thing, alone: () => alone.has(control.name)});
-      return row(`${control.label} by dragging alone`, box, make("span", {className: "keys", textContent: "Ctrl drag"}));
+      return row(`${control.label} by dragging alone, without Ctrl`, box);
     },
     stick(control) {
       const pulls = control.axes.map(() => 0);

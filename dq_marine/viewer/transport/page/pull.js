@@ -38,11 +38,11 @@
   // Where the hand is
 
   function hand_of({pull, point, x, y}) {  // in NED
-    const thing = find(pull.thing), world = find("/world"), {origin, direction} = ray_in(viewer.scene, x, y);
+    const {left, top, width, height} = pane.getBoundingClientRect(), thing = find(pull.thing), world = find("/world");
+    const {origin, direction} = ray_in(world, x, y), {direction: ahead} = ray_in(world, left + width / 2, top + height / 2);
     thing.updateWorldMatrix(true, false);
-    const ahead = viewer.camera.getWorldDirection(origin.clone()), grip = thing.localToWorld(point.clone());
-    const way = grip.sub(origin).dot(ahead) / direction.dot(ahead);
-    return world.worldToLocal(origin.addScaledVector(direction, way));
+    const grip = world.worldToLocal(thing.localToWorld(point.clone()));
+    return origin.addScaledVector(direction, grip.sub(origin).dot(ahead) / direction.dot(ahead));
   }
 
   // The line
