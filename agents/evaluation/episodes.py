@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
+from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.environments import marine
@@ -37,6 +39,7 @@ class Episode:
         seed: that it was reset with.
         track: where the vehicle was, if that was asked for.
         notes: what a reader of the numbers should know.
+        pushed: of each period, whether a person pulled the vehicle by hand in it, shape (n,); None if in none.
     """
 
     time: Array
@@ -52,6 +55,7 @@ class Episode:
     seed: int = 0
     track: Track | None = None
     notes: tuple[str, ...] = ()
+    pushed: NDArray[np.bool_] | None = None
 
     @property
     def total_reward(self) -> float:
@@ -106,7 +110,7 @@ class Episode:
     def columns(self) -> dict[str, Array]:
         """Return everything by name, the unit at its end, each of shape (n + 1,).
 
-        Actions and rewards are those of the period that begins at the instant; at the last instant they are NaN.
+        Actions, pushes and rewards are those of the period that begins at the instant; at the last one they are NaN.
         """
 
         def of_periods(values: Array) -> Array:
@@ -115,6 +119,8 @@ class Episode:
         columns = {"time_s": self.time} | ({} if self.track is None else self.track.columns())
         for index, name in enumerate(self.action_names):
             columns[f"action_{name.replace(' ', '_')}"] = of_periods(self.actions[:, index])
+        if self.pushed is not None:
+            columns["pushed"] = of_periods(self.pushed.astype(np.float64))
         columns["reward"] = of_periods(self.rewards)
         columns |= {name: of_periods(values) for name, values in self.reward_terms.items()}
         return columns | {
@@ -188,6 +194,20 @@ def fly_episode(
         track=followed,
         notes=validity.notes(np.array(through_water)) if validity is not None and through_water else (),
     )
+
+
+def with_pushes(episode: Episode, pushed: Sequence[bool]) -> Episode:
+    """Return an episode that says in which control periods a person pulled the vehicle by hand; itself if in none.
+
+    Args:
+        episode: of n periods.
+        pushed: whether it was, of each period; what goes beyond n is of a period that did not end.
+    """
+    of_periods = np.array(pushed[: len(episode.actions)], np.bool_)
+    if not of_periods.any():
+        return episode
+    note = f"The vehicle was pulled by hand in {of_periods.sum()} of {of_periods.size} control periods."
+    return replace(episode, notes=(*episode.notes, note), pushed=of_periods)
 
 
 def _series(infos: list[dict[str, Any]], name: str) -> Array:

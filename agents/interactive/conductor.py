@@ -21,6 +21,7 @@ from dq_marine.agents.interactive.controls import (
     GOAL,
     HOLD,
     POWER,
+    PULL,
     QUIT,
     RESET,
     SEED,
@@ -29,6 +30,7 @@ from dq_marine.agents.interactive.controls import (
     stick_positions,
 )
 from dq_marine.agents.interactive.gains import Gains
+from dq_marine.agents.interactive.hand import Hand
 from dq_marine.agents.interactive.helm import Helm
 from dq_marine.agents.interactive.next_episode import NextEpisode
 from dq_marine.agents.interactive.readings import readings
@@ -55,6 +57,7 @@ class Conductor:
         seed: of the next episode.
         quitting: whether the person has had enough.
         restarting: whether the person ended the episode, to have another.
+        pushed: of each control period of the episode, whether the person pulled the vehicle by hand in it.
     """
 
     def __init__(
@@ -79,7 +82,8 @@ class Conductor:
         """
         self.seed, self.quitting, self.restarting = seed, False, False
         self._viewer, self._agents, self._helm = viewer, dict(agents), helm
-        self._next_episode = next_episode
+        self._next_episode, self._hand = next_episode, Hand()
+        self.pushed: list[bool] = []
         self._playback, self._sleep = Playback(sleep=sleep), sleep
         self._gains = Gains(self._agents)
         self._chosen = next(iter(self._agents))
@@ -93,7 +97,8 @@ class Conductor:
             SEED: self._take_seed,
             AGENT: self._choose,
             STICK: self._move_stick,
-            LEFT: lambda _: setattr(self._helm, "stick", np.zeros(6)),
+            PULL: self._hand.take,
+            LEFT: lambda _: self._let_go(),
             POWER: lambda power: setattr(self._helm, "power", power),
             HOLD: lambda hold: setattr(self._helm, "hold", hold and self._helm.can_hold),
             GOAL: self._move_goal,
@@ -104,7 +109,8 @@ class Conductor:
     def reset(self, env: gym.Env[Any, Any]) -> None:
         """Show the beginning of an episode, and the controls that its environment has."""
         self._env = marine(env)
-        self.restarting, self._current = False, None
+        self.restarting, self._current, self.pushed = False, None, []
+        self._hand.take(None)
         for agent in self._agents.values():
             agent.reset(env)
         self._playback.begin()
@@ -159,7 +165,9 @@ class Conductor:
         """
         self._show(at_once=not self._playback.playing)
         self._playback.wait(self._flying.time, self._hear)
-        return self._agents[self._chosen].act(observation)
+        action = self._agents[self._chosen].act(observation)
+        self.pushed.append(self._hand.pull(self._flying))
+        return action
 
     def goes_on_after(self, notice: str) -> bool:
         """Show how an episode ended, and wait; return whether the person wants another one."""
@@ -222,6 +230,10 @@ class Conductor:
     def _choose(self, name: str) -> None:
         self._chosen = name
         self._agents[name].reset(self._flying)
+
+    def _let_go(self) -> None:
+        self._helm.stick = np.zeros(6)
+        self._hand.take(None)
 
     def _move_stick(self, positions: tuple[float, ...]) -> None:
         self._helm.stick = stick_positions(self._flying, positions)

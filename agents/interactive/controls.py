@@ -21,11 +21,13 @@ from dq_marine.viewer.controls import (
     Group,
     Number,
     Place,
+    Pull,
     Slider,
     Stick,
     Switch,
 )
 from dq_marine.viewer.models.vehicle_model import GOAL_GHOST
+from dq_marine.viewer.models.vehicle_model import VEHICLE as DRAWN_VEHICLE
 from dq_marine.viewer.playback import Playback
 
 if TYPE_CHECKING:
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
 RESET, QUIT, SEED, AGENT = "reset", "quit", "seed", "agent"
 STICK, POWER, HOLD = "stick", "power", "hold"
 GOAL = "goal"
+PULL = "pull"
 CURRENT = ("current_speed", "current_bearing")
 """Names of the controls."""
 
@@ -46,6 +49,12 @@ GOAL_REACH = 0.5
 
 GOAL_REACH_IN_LENGTHS = 10.0
 """The same for tasks without a workspace, in vehicle lengths."""
+
+HOLD_REACH = 2.0
+"""Farthest from the vehicle's origin that it can be held, in vehicle lengths; what is drawn is within half of that."""
+
+FARTHEST_HAND = 1e6
+"""From the world's origin [m]."""
 
 HANDS = {
     "surge": Axis("astern, ahead", "KeyS", "KeyW", (3, -1)),
@@ -88,6 +97,14 @@ def flight_controls(
         Stick(STICK, "helm", tuple(HANDS[MOTIONS[axis]] for axis in driven(env))),
         Slider(POWER, "power", 0.05, 1.0, helm.power, 0.05),
         *((Switch(HOLD, "hold what is let go", helm.hold, key="KeyH"),) if helm.can_hold else ()),
+        Pull(
+            PULL,
+            "pull the vehicle",
+            DRAWN_VEHICLE,
+            HOLD_REACH * env.vehicle.dimensions.length,
+            FARTHEST_HAND,
+            key="KeyG",
+        ),
     )
     groups = [Group("Flight", simulation), Group("Helm", hands)]
     if env.scene.composition.water == MOVING_WATER:

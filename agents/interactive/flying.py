@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import gymnasium as gym
 
 from dq_marine.agents.environments import marine
-from dq_marine.agents.evaluation.episodes import Episode, fly_episode
+from dq_marine.agents.evaluation.episodes import Episode, fly_episode, with_pushes
 from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, options_of, periods_of, write_outputs
 from dq_marine.agents.interactive.conductor import Conductor
 from dq_marine.agents.interactive.flights import (
@@ -116,7 +116,11 @@ class _Session:
         self._flight = flight
         self.env: gym.Env[Any, Any] = flight.env
         if self._recorder is not None:
-            self.env = self._recorder.recording(flight.env, lambda: self._conductor.flown_by == HELM)
+            self.env = self._recorder.recording(
+                flight.env,
+                lambda: self._conductor.flown_by == HELM,
+                lambda: self._conductor.pushed[-1],
+            )
 
     def _show_start(self, page: LiveViewer, seed: int) -> None:
         """Show where the first episode begins, while its steps are compiled; what can be done comes thereafter."""
@@ -135,9 +139,10 @@ class _Session:
     def _fly_one(self) -> Episode:
         seed, track = self._conductor.seed, self._outputs.trajectory is not None
         options = options_of(self._flight.env, self._flight.plan, seed)
-        return fly_episode(
+        episode = fly_episode(
             self.env, self._conductor, seed=seed, options=options, interruptible=True, track=track
         )
+        return with_pushes(episode, self._conductor.pushed)
 
     def _goes_on_after(self, episode: Episode) -> bool:
         """Return whether the person wants another episode, which is asked where this one came to its end."""

@@ -1,6 +1,7 @@
 """What was flown, as Minari datasets: one for each environment, with all its episodes.
 
-Each step's info has `by_person`, whether the person was at the helm: an imitation of them may leave out the rest.
+Each step's info has `by_person`, whether the person was at the helm: an imitation of them may leave out the rest; and
+`pushed`, whether they pulled the vehicle by hand: what it did then does not follow from its action alone.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ PURPOSE, EXTRA = "recording flights", "interop"
 FOLDER_VARIABLE = "MINARI_DATASETS_PATH"
 """Where Minari looks for the folder of its datasets."""
 
-BY_PERSON = "by_person"
+BY_PERSON, PUSHED = "by_person", "pushed"
 
 
 class Recorder(AbstractContextManager["Recorder"]):
@@ -53,16 +54,19 @@ class Recorder(AbstractContextManager["Recorder"]):
         except OSError as error:
             raise unwritable(folder, error) from error
 
-    def recording(self, env: gym.Env[Any, Any], by_person: Callable[[], bool]) -> gym.Env[Any, Any]:
+    def recording(
+        self, env: gym.Env[Any, Any], by_person: Callable[[], bool], pushed: Callable[[], bool]
+    ) -> gym.Env[Any, Any]:
         """Return an environment around one of this package that keeps what is flown in it.
 
         Args:
             env: whose episodes are kept.
             by_person: whether a person flies it now.
+            pushed: whether a person pulled it by hand in the last step.
         """
         with self._datasets_in(self._begun.name):
             collector: gym.Env[Any, Any] = self._minari.DataCollector(
-                env, step_data_callback=lambda: StepData(by_person), record_infos=True
+                env, step_data_callback=lambda: StepData(by_person, pushed), record_infos=True
             )
         return collector
 
@@ -78,7 +82,10 @@ class Recorder(AbstractContextManager["Recorder"]):
                 dataset = recorded.create_dataset(  # type: ignore[attr-defined]
                     identifier,
                     algorithm_name="flown in the live page",
-                    description=f"flown in the live page of dq-marine; {BY_PERSON} tells who was at the helm",
+                    description=(
+                        f"flown in the live page of dq-marine; {BY_PERSON} tells who was at the helm, {PUSHED} in "
+                        "which steps the vehicle was pulled by hand"
+                    ),
                 )
             if dataset.total_episodes:
                 self._move(identifier)
@@ -126,9 +133,9 @@ class Recorder(AbstractContextManager["Recorder"]):
 class StepData:
     """Says what is kept of a step, as Minari's `StepDataCallback` does."""
 
-    def __init__(self, by_person: Callable[[], bool]) -> None:
-        """Take what tells whether a person flies."""
-        self._by_person = by_person
+    def __init__(self, by_person: Callable[[], bool], pushed: Callable[[], bool]) -> None:
+        """Take what tells whether a person flies, and whether they pulled the vehicle in the last step."""
+        self._by_person, self._pushed = by_person, pushed
 
     def __call__(
         self,
@@ -140,12 +147,13 @@ class StepData:
         terminated: bool | None = None,
         truncated: bool | None = None,
     ) -> dict[str, Any]:
-        """Return a step's data: the action as it was held, and who gave it."""
+        """Return a step's data: the action as it was held, who gave it, and whether the vehicle was pushed besides."""
+        pushed = action is not None and self._pushed()  # a reset is no step
         return {
             "action": None if action is None else np.clip(action, -1.0, 1.0),
             "observation": obs,
             "reward": rew,
             "terminated": terminated,
             "truncated": truncated,
-            "info": {**info, BY_PERSON: self._by_person()},
+            "info": {**info, BY_PERSON: self._by_person(), PUSHED: pushed},
         }

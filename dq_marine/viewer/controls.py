@@ -202,7 +202,41 @@ class Place:
         return tuple(min(max(one, least), most) for one, least, most in bounds)
 
 
-Control = Button | Switch | Choice | Slider | Number | Stick | Place
+@dataclass(frozen=True)
+class Pull:
+    """A hold on a thing in the scene, which a person pulls by a point; the event's value is that point and the hand.
+
+    Both are triples [m], the point in the thing's axes and the hand in the world's; None once it is let go.
+
+    Attributes:
+        thing: path of what can be held.
+        reach: largest coordinate of a point that can be held [m].
+        farthest: largest coordinate of the hand [m].
+        key: that lets plain dragging pull, where else Ctrl or Alt is held down.
+    """
+
+    kind: ClassVar[str] = "pull"
+    name: str
+    label: str
+    thing: str
+    reach: float
+    farthest: float
+    key: str = ""
+
+    def read(self, value: Any) -> Any:
+        """Return None, or point and hand; `ValueError` if they are not six numbers, or one is beyond its bound."""
+        if value is None:
+            return None
+        if not isinstance(value, list) or len(value) != 6:
+            raise ValueError
+        numbers = tuple(map(_number, value))
+        point, hand = numbers[:3], numbers[3:]
+        if max(map(abs, point)) > self.reach or max(map(abs, hand)) > self.farthest:
+            raise ValueError
+        return point, hand
+
+
+Control = Button | Switch | Choice | Slider | Number | Stick | Place | Pull
 
 
 @dataclass(frozen=True)

@@ -78,6 +78,10 @@ class ShownTask(ComposedTask):
         """
         return self._view.url
 
+    def annotate(self, remark: str) -> None:
+        """Have the title of the episode's replay say something, until the next episode begins."""
+        self._view.remark = remark
+
     def close(self) -> None:
         """End whatever rendering started."""
         self._view.close()

@@ -89,6 +89,7 @@ class EpisodeView:
         self._record = env.record
         self._shape = shape_of(env.vehicle)
         self._title = env.vehicle.name
+        self.remark = ""
         self._snapshots: list[Snapshot] = []
         self._live: LiveViewer | None = None
         self._playback: Playback | None = None
@@ -97,7 +98,7 @@ class EpisodeView:
 
     def begin(self, env: MarineEnv) -> None:
         """Start a new episode at the environment's present state."""
-        self._snapshots = []
+        self._snapshots, self.remark = [], ""
         if self._playback is not None:
             self._playback.begin()
         if self._live is not None:
@@ -130,7 +131,7 @@ class EpisodeView:
         """Write the recorded episode as a standalone page."""
         from dq_marine.viewer.replay import save_replay
 
-        save_replay(path, self._recorded("save_html"), self._shape, title=self._title)
+        save_replay(path, self._recorded("save_html"), self._shape, title=self._titled)
 
     def save_mp4(
         self, path: str | os.PathLike[str], fps: float | None, progress: Callable[[float], None]
@@ -144,7 +145,11 @@ class EpisodeView:
         """Return the recorded episode as a page."""
         from dq_marine.viewer.replay import make_replay
 
-        return make_replay(self._recorded("replay"), self._shape, title=self._title)
+        return make_replay(self._recorded("replay"), self._shape, title=self._titled)
+
+    @property
+    def _titled(self) -> str:
+        return f"{self._title}, {self.remark}" if self.remark else self._title
 
     def flight(self, name: str) -> Flight:
         """Return the recorded episode as one flight among others."""

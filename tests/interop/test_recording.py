@@ -18,7 +18,7 @@ from dq_marine.agents.controllers.baselines import ZeroAgent
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, with_keywords
 from dq_marine.agents.evaluation.flight import FlightPlan, Outputs
 from dq_marine.agents.interactive import flying
-from dq_marine.agents.interactive.controls import AGENT, HOLD, QUIT, RESET, SEED, STICK
+from dq_marine.agents.interactive.controls import AGENT, HOLD, PULL, QUIT, RESET, SEED, STICK
 from dq_marine.agents.interactive.next_episode import VEHICLE
 from dq_marine.agents.interactive.recording import Recorder
 from dq_marine.viewer.controls import Event
@@ -29,7 +29,7 @@ RealTimePacer.wait_until = lambda self, time: None
 sway = Event(STICK, (0.0, 1.0, 0.0, 0.0, 0.0, 0.0))
 script = [
     [Event(HOLD, False), sway], [], [], [Event(AGENT, "zero")], [],
-    [Event(SEED, 9), Event(RESET)], [], [],
+    [Event(SEED, 9), Event(RESET)], [Event(PULL, ((0.1, 0.0, 0.0), (9.0, 0.0, 5.0)))], [Event(PULL, None)],
     [Event(RESET)],
     [Event(RESET), Event(VEHICLE, "bluerov2")], [],
 ]
@@ -54,6 +54,9 @@ heavy, other = (minari.load_dataset(name) for name in sorted(recorder.written))
 first, second = heavy.iterate_episodes()
 assert [len(one.rewards) for one in (first, second)] == [5, 2]
 assert first.infos["by_person"].tolist() == [True] * 4 + [False] * 2
+# One flag for each instant, of the step that led to it; the first of a reset.
+assert not first.infos["pushed"].any()
+assert second.infos["pushed"].tolist() == [False, True, False]
 np.testing.assert_array_equal(first.actions[:, 1], [1.0, 1.0, 1.0, 0.0, 0.0])
 assert bool(second.truncations[-1]) and not bool(second.terminations[-1])
 

@@ -16,6 +16,8 @@ from dq_marine.viewer.transport.browser import HeadlessBrowser
 
 DEBUGGING_FLAGS = ("--remote-debugging-port=0", "--remote-allow-origins=*")
 PATIENCE = 120.0
+ALT, CTRL = 1, 2
+"""Keys that are held down while the mouse does something."""
 
 
 class NavigatedError(Exception):
@@ -37,18 +39,44 @@ class Page:
 
     def evaluate(self, expression: str) -> Any:
         """The value of a JavaScript expression; a JavaScript error fails the test."""
+        result = self._command("Runtime.evaluate", expression=expression, returnByValue=True)
+        assert "exceptionDetails" not in result, result["exceptionDetails"]
+        return result["result"].get("value")
+
+    def mouse(self, kind: str, x: float, y: float, *, held: int = 0) -> None:
+        """Press, move or release the left button of a real mouse at a pixel.
+
+        Args:
+            kind: "mousePressed", "mouseMoved" or "mouseReleased".
+            x: of the pixel.
+            y: of the pixel.
+            held: keys that are down, see `ALT`, `CTRL`.
+        """
+        self._command(
+            "Input.dispatchMouseEvent",
+            type=kind,
+            x=x,
+            y=y,
+            button="left",
+            buttons=1,
+            clickCount=1,
+            modifiers=held,
+        )
+
+    def close(self) -> None:
+        """Close the page, as a person closes its tab; nothing can be done with it thereafter."""
+        self._command("Page.close")
+
+    def _command(self, method: str, **parameters: Any) -> Any:
         self._sent += 1
-        parameters = {"expression": expression, "returnByValue": True}
-        message = {"id": self._sent, "method": "Runtime.evaluate", "params": parameters}
-        self._connection.send(json.dumps(message))
+        self._connection.send(json.dumps({"id": self._sent, "method": method, "params": parameters}))
         while True:
             answer = json.loads(self._connection.recv(timeout=PATIENCE))
             if answer.get("id") == self._sent:
                 break
         if "error" in answer:
             raise NavigatedError(answer["error"])
-        assert "exceptionDetails" not in answer["result"], answer["result"]["exceptionDetails"]
-        return answer["result"]["result"].get("value")
+        return answer["result"]
 
     def wait_until(self, condition: str) -> None:
         """Return when a JavaScript condition has become true."""

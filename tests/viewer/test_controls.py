@@ -21,6 +21,7 @@ from dq_marine.viewer.controls import (
     Number,
     Panel,
     Place,
+    Pull,
     Slider,
     Stick,
     Switch,
@@ -34,6 +35,7 @@ CONTROLS = (
     Number("seed", "seed", 0, 100, 3),
     Stick("stick", "stick", (Axis("a", "KeyA", "KeyD"), Axis("b", "KeyS", "KeyW", (1, -1)))),
     Place("goal", "goal", ("n", "e", "d"), (-1.0, -2.0, 0.0), (1.0, 2.0, 9.0), (0.0, 0.0, 5.0), 0.01),
+    Pull("pull", "pull", "/world/vehicle", 2.0, 1e3),
 )
 PANEL = Panel([Group("all", CONTROLS)])
 
@@ -56,6 +58,8 @@ def read(name: str, value: Any) -> list[Event]:
         ("seed", 1e9, 100),
         ("stick", [0.5, -3], (0.5, -1.0)),
         ("goal", [0.5, -3, 4], (0.5, -2.0, 4.0)),
+        ("pull", None, None),
+        ("pull", [1, 0, -2.0, 1e3, 5, 0.5], ((1.0, 0.0, -2.0), (1e3, 5.0, 0.5))),
     ],
 )
 def test_values_are_taken_within_their_bounds(name: str, value: Any, taken: Any) -> None:
@@ -80,6 +84,13 @@ def test_values_are_taken_within_their_bounds(name: str, value: Any, taken: Any)
         ("goal", [0.0, 0.0]),
         ("goal", [0.0, 0.0, "x"]),
         ("goal", None),
+        ("pull", 1.0),
+        ("pull", [0.0] * 5),
+        ("pull", [0.0] * 5 + [math.nan]),
+        ("pull", [0.0] * 5 + [math.inf]),
+        ("pull", [2.1] + [0.0] * 5),
+        ("pull", [0.0] * 5 + [1001.0]),
+        ("pull", [0.0] * 5 + [True]),
     ],
 )
 def test_what_means_nothing_is_passed_over(name: str, value: Any) -> None:
@@ -87,7 +98,7 @@ def test_what_means_nothing_is_passed_over(name: str, value: Any) -> None:
 
 
 PLAIN = (
-    st.none() | st.booleans() | st.floats() | st.integers() | st.text() | st.lists(st.floats(), max_size=4)
+    st.none() | st.booleans() | st.floats() | st.integers() | st.text() | st.lists(st.floats(), max_size=6)
 )
 
 
@@ -109,6 +120,10 @@ def test_no_value_of_a_page_gets_past_the_bounds(name: str, value: Any) -> None:
             case Place():
                 within = zip(control.least, event.value, control.most, strict=True)
                 assert all(least <= one <= most for least, one, most in within)
+            case Pull():
+                point, hand = event.value or ((0.0,) * 3, (0.0,) * 3)
+                assert all(abs(one) <= control.reach for one in point)
+                assert all(abs(one) <= control.farthest for one in hand)
 
 
 def test_a_page_that_leaves_is_an_event_in_its_place() -> None:

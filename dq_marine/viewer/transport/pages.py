@@ -168,6 +168,8 @@ LIVE_PAGE = _page(
     _inline(_file("glide.js")),
     _inline(_file("panel.js")),
     _inline(_file("view.js")),
+    _inline(_file("pointing.js")),
+    _inline(_file("pull.js")),
     _inline(_file("drag.js")),
     _inline(_file("pace.js")),
 )

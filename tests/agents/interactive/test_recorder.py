@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from support.command_line import assert_refused, run
 
-from dq_marine.agents.interactive.recording import BY_PERSON, Recorder, StepData
+from dq_marine.agents.interactive.recording import BY_PERSON, PUSHED, Recorder, StepData
 from dq_marine.errors import InvalidInputError, MissingDependencyError
 
 
@@ -38,15 +38,15 @@ def test_a_flight_without_a_panel_has_nothing_to_record(tmp_path: Path) -> None:
     assert_refused(run("fly", "--record", tmp_path / "flights"), "add --teleop or --panel")
 
 
-def test_a_step_is_kept_as_it_was_held_with_who_gave_it() -> None:
-    at_helm = True
-    step: Any = StepData(lambda: at_helm)
+def test_a_step_is_kept_as_it_was_held_with_who_gave_it_and_whether_it_was_pushed() -> None:
+    at_helm = pushed = True
+    step: Any = StepData(lambda: at_helm, lambda: pushed)
     begun = step(None, obs=np.zeros(2), info={"a": 1.0})
     assert begun["action"] is None
-    assert begun["info"] == {"a": 1.0, BY_PERSON: True}
+    assert begun["info"] == {"a": 1.0, BY_PERSON: True, PUSHED: False}
     at_helm = False
     held = step(None, np.ones(2), {}, np.array([0.5, 1.5], np.float32), 1.0, False, True)
     np.testing.assert_array_equal(held["action"], np.array([0.5, 1.0], np.float32))
     assert held["action"].dtype == np.float32
     assert (held["reward"], held["terminated"], held["truncated"]) == (1.0, False, True)
-    assert held["info"] == {BY_PERSON: False}
+    assert held["info"] == {BY_PERSON: False, PUSHED: True}

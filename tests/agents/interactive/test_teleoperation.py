@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import re
 import signal
@@ -14,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from viewer.devtools import Page, open_page
+from viewer.devtools import CTRL, Page, open_page
 
 pytestmark = pytest.mark.browser
 
@@ -152,3 +153,39 @@ def test_another_vehicle_task_and_weather_are_chosen_in_the_page() -> None:
         page.evaluate("document.getElementById('control-quit').click()")
         out, _ = process.communicate(timeout=120)
         assert process.returncode == 0, out
+
+
+def test_the_vehicle_is_pulled_by_the_mouse_until_it_is_let_go_or_the_page_is_closed(tmp_path: Path) -> None:
+    """What was pulled, and when, is in the trajectory."""
+    trajectory = tmp_path / "flight.csv"
+    options = ["--panel", "--agent", "zero", "--set", "current=0", "--seed", "3", "--seconds", "600"]
+    middle = """pointing.pixels_of(
+      viewer.scene_tree.find(["world", "vehicle"]).object.getWorldPosition(viewer.camera.position.clone())
+    )"""
+    where = f"[{reading('north')}, {reading('east')}]"
+    with flight(*options, "--trajectory", str(trajectory)) as (process, page):
+        page.wait_until(f"{reading('position error')} > 0 && {middle} !== null")
+        x, y = page.evaluate(middle)
+        begun = np.array(page.evaluate(where))
+        right = np.array(page.evaluate("[0, 2].map((axis) => viewer.camera.matrixWorld.elements[axis])"))
+        page.mouse("mousePressed", x, y, held=CTRL)
+        page.mouse("mouseMoved", x + 200, y, held=CTRL)
+        page.wait_until(f"Math.hypot({reading('north')} - {begun[0]}, {reading('east')} - {begun[1]}) > 0.3")
+        assert np.dot(right, np.array(page.evaluate(where)) - begun) > 0.25
+        page.mouse("mouseReleased", x + 200, y, held=CTRL)
+        page.wait_until("document.getElementById('pull-line').style.display === 'none'")
+        time.sleep(1.0)
+        x, y = page.evaluate(middle)
+        page.mouse("mousePressed", x, y, held=CTRL)
+        page.mouse("mouseMoved", x - 150, y, held=CTRL)
+        time.sleep(1.0)
+        page.close()
+        time.sleep(2.0)
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=120)
+    assert process.returncode == 0, out
+    assert "The vehicle was pulled by hand in" in out
+    with trajectory.open() as file:
+        pushed = np.array([float(row["pushed"]) for row in list(csv.DictReader(file))[:-1]])
+    assert np.flatnonzero(np.diff(pushed)).size == 4  # taken, let go, taken, closed
+    assert not pushed[-10:].any()

@@ -45,6 +45,8 @@ const panel = (() => {
   // Controls, by kind: each returns what is shown, and in `setters` how its value is shown
 
   const setters = new Map();
+  const holds = [];   // {say, thing, alone}: holds on things, and whether plain dragging takes them
+  const alone = new Set();  // names of those that it does; kept when the controls are shown anew
   const places = [];  // {name, thing, values, move}: positions, of which some can be dragged in the scene
   const row = (label, ...parts) => make("div", {className: "row"}, make("label", {textContent: label}), ...parts);
   const bind = (key, meaning, act) => {
@@ -131,6 +133,14 @@ const panel = (() => {
       places.push(place);
       place.show();
       return make("div", {id: `control-${control.name}`}, ...rows.map((one) => one.row));
+    },
+    pull(control) {
+      const box = make("input", {type: "checkbox", id: `control-${control.name}`, checked: alone.has(control.name)});
+      box.onchange = () => { alone[box.checked ? "add" : "delete"](control.name); };
+      bind(control.key, `${control.label} by dragging alone, or not`, () => box.click());
+      explain(["Ctrl", "drag"], `${control.label} by the point under the pointer; Alt does the same`);
+      holds.push({say: (words) => say(control.name, words), thing: control.thing, alone: () => alone.has(control.name)});
+      return row(`${control.label} by dragging alone, without Ctrl`, box);
     },
     stick(control) {
       const pulls = control.axes.map(() => 0);
@@ -261,7 +271,7 @@ const panel = (() => {
   }
 
   function show_controls(content) {
-    sticks.length = places.length = 0;
+    sticks.length = places.length = holds.length = 0;
     setters.clear();
     const before = new Map([...by_id("panel-controls").children].map((section) => [section.firstChild.textContent, section.open]));
     const sections = content.groups.map((group) => {
@@ -314,5 +324,5 @@ const panel = (() => {
   (function each_frame() { say_sticks(); requestAnimationFrame(each_frame); })();
   connect();
   const connected = () => socket.readyState === WebSocket.OPEN;
-  return {bind, connected, fill_help, make, places, row};
+  return {bind, connected, fill_help, make, places, holds, row};
 })();
