@@ -22,7 +22,7 @@ from dq_marine.viewer import LiveViewer
 from dq_marine.viewer.transport.browser import HeadlessBrowser
 from dq_marine.viewer.transport.messages import Message
 from dq_marine.viewer.transport.picture import HEAD, MARK
-from dq_marine.viewer.transport.server_process import ServerProcess
+from dq_marine.viewer.transport.server_process import DELIMITER, ServerProcess
 
 
 def picture(width: int, height: int) -> bytes:
@@ -144,9 +144,10 @@ def test_a_message_of_wrong_shape_is_refused(frames: list[bytes], viewer: LiveVi
     """Even from one with the keys."""
     own = viewer._server._socket
     with unharmed(viewer):
-        own.send_multipart(frames)
+        own.send_multipart([b"a number", DELIMITER, *frames])
         assert own.poll(5000)
-        assert own.recv().startswith(b"error")
+        number, _, answer = own.recv_multipart()
+        assert (number, answer[:5]) == (b"a number", b"error")
 
 
 @pytest.mark.parametrize(

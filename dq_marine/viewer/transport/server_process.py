@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import secrets
@@ -10,7 +11,7 @@ import socket
 import subprocess
 import sys
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,9 @@ _NO_START = (
     f"the viewer's server did not start within {START_TIMEOUT:g} s; to see why, run: "
     "echo '{}' | python -m dq_marine.viewer.transport.server"
 )
+
+DELIMITER = b""
+"""After a message's number: the server's socket, a REP, gives back with its answer what comes before this."""
 
 POLL_SECONDS = 0.2
 """How often a long wait looks whether it has become hopeless."""
@@ -76,6 +80,7 @@ class ServerProcess:
             self._stop()
             raise
         self._socket = _connected(self._zmq, address, public_key)
+        self._numbers = itertools.count()
         # Dropped or forgotten, a viewer still ends its server and its connection.
         weakref.finalize(self, self._socket.close, 0)
 
@@ -84,15 +89,17 @@ class ServerProcess:
         """Process number of the server."""
         return self._process.pid
 
-    def send(self, message: Message) -> None:
-        """Have a message carried out by all connected pages, and by those that connect later.
+    def send(self, *messages: Message) -> None:
+        """Have messages carried out by all connected pages, and by those that connect later.
+
+        They are all on their way before the first answer is waited for.
 
         Raises:
             ViewerError: the server is closed or does not answer.
         """
-        answer = self._request(message, REPLY_TIMEOUT)
-        if answer != b"ok":
-            raise ViewerError(f"the viewer's server refused {message.kind!r}: {answer!r}")
+        for message, answer in zip(messages, self._requests(messages, REPLY_TIMEOUT), strict=True):
+            if answer != b"ok":
+                raise ViewerError(f"the viewer's server refused {message.kind!r}: {answer!r}")
 
     def take_words(self) -> list[dict[str, Any]]:
         """What was said by the panels of pages since the last call, oldest first: names and plain values.
@@ -100,7 +107,7 @@ class ServerProcess:
         Raises:
             ViewerError: the server is closed or does not answer.
         """
-        words: list[dict[str, Any]] = json.loads(self._request(TAKE_WORDS, REPLY_TIMEOUT))
+        words: list[dict[str, Any]] = json.loads(self._requests([TAKE_WORDS], REPLY_TIMEOUT)[0])
         return words
 
     def capture(self, timeout: float, check: Callable[[], None]) -> NDArray[np.uint8]:
@@ -116,18 +123,35 @@ class ServerProcess:
         Raises:
             ViewerError: no picture came in time.
         """
-        return pixels_of(self._request(CAPTURE_IMAGE, timeout, check))
+        return pixels_of(self._requests([CAPTURE_IMAGE], timeout, check)[0])
 
     def close(self) -> None:
         """End the server and wait for its end. May be called again."""
         self._socket.close(linger=0)
         self._stop()
 
-    def _request(self, message: Message, timeout: float, check: Callable[[], None] = lambda: None) -> bytes:
+    def _requests(
+        self, messages: Sequence[Message], timeout: float, check: Callable[[], None] = lambda: None
+    ) -> list[bytes]:
+        """Return the server's answers, which come in the order of the messages."""
         if self._socket.closed:
             raise ViewerError("the viewer is closed; open a new one")
-        kind, path = message.kind.encode(), message.path.encode()
-        self._socket.send_multipart([kind, path, message.packed()])
+        asked = [(b"%d" % next(self._numbers), message) for message in messages]
+        for number, message in asked:
+            path = message.path.encode()
+            self._socket.send_multipart([number, DELIMITER, message.kind.encode(), path, message.packed()])
+        return [self._answer(number, message.kind, timeout, check) for number, message in asked]
+
+    def _answer(self, number: bytes, kind: str, timeout: float, check: Callable[[], None]) -> bytes:
+        """Wait for the answer to a message, past those whose wait was interrupted, as by Ctrl-C."""
+        answered, answer = b"", b""
+        while answered != number:
+            self._wait(kind, timeout, check)
+            answered, _, answer = self._socket.recv_multipart()
+        return answer
+
+    def _wait(self, kind: str, timeout: float, check: Callable[[], None]) -> None:
+        """Wait until there is something to receive."""
         waited = 0.0  # not by a clock, which goes on while this process and the server's are stopped
         while not self._socket.poll(1000 * POLL_SECONDS):
             check()
@@ -138,11 +162,9 @@ class ServerProcess:
             if waited >= timeout:
                 self.close()
                 raise ViewerError(
-                    f"no answer to {message.kind!r} within {timeout:g} s; the viewer is closed: "
+                    f"no answer to {kind!r} within {timeout:g} s; the viewer is closed: "
                     "open a new one, on a computer less busy"
                 )
-        answer: bytes = self._socket.recv()
-        return answer
 
 
 def _start(door: socket.socket) -> subprocess.Popen[bytes]:
@@ -184,14 +206,14 @@ def _read_address(process: subprocess.Popen[bytes]) -> str:
 
 
 def _connected(zmq: Any, url: str, server_key: bytes) -> Any:
-    """A request socket to the server that has the secret half of this key, encrypted by CURVE."""
-    asking = zmq.Context.instance().socket(zmq.REQ)
+    """A socket to the server that has the secret half of this key, encrypted by CURVE.
+
+    A DEALER, which may send a message before the last one is answered; a REQ may not.
+    """
+    asking = zmq.Context.instance().socket(zmq.DEALER)
     asking.curve_serverkey = server_key
     asking.curve_publickey, asking.curve_secretkey = zmq.curve_keypair()
     asking.linger = 0
-    # A request whose wait was interrupted, as by Ctrl-C, must not spoil the next one.
-    asking.req_relaxed = True
-    asking.req_correlate = True
     asking.connect(url)
     return asking
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from dq_marine.viewer.placement import Placement
 from dq_marine.viewer.snapshot import Shape, Snapshot
-from dq_marine.viewer.transport.messages import set_transform
+from dq_marine.viewer.transport.messages import Message, set_transform
 from dq_marine.viewer.transport.server_process import ServerProcess
 from dq_marine.viewer.world.drawing import Drawing
 from dq_marine.viewer.world.trail import Trail
@@ -33,9 +33,7 @@ class Stage:
 
     def restart(self) -> None:
         """Forget the past: the next snapshot begins a new episode."""
-        for message in self._drawing.restart():
-            self._server.send(message)
-        self._trail.restart()
+        self._server.send(*self._restarted())
 
     def draw(self, snapshot: Snapshot) -> None:
         """Show a snapshot; one that does not continue the last one begins a new episode.
@@ -43,20 +41,28 @@ class Stage:
         Raises:
             ViewerError: the server has gone.
         """
+        messages: list[Message] = []
         if self._last is None:
-            for message in self._drawing.scenery(snapshot):
-                self._server.send(message)
+            messages += self._drawing.scenery(snapshot)
         elif _is_new_episode(self._last, snapshot):
-            self.restart()
-        for message in self._drawing.appear(snapshot):
-            self._server.send(message)
+            messages += self._restarted()
+        messages += self._drawing.appear(snapshot)
         if self._trail.extend(snapshot.position_ned, snapshot.time):
-            self._server.send(self._trail.message())
-        for path, placement in self._drawing.placements(snapshot).items():
-            if self._placed.get(path) != placement:
-                self._server.send(set_transform(path, placement))
-                self._placed[path] = placement
+            messages.append(self._trail.message())
+        moved = {
+            path: placement
+            for path, placement in self._drawing.placements(snapshot).items()
+            if self._placed.get(path) != placement
+        }
+        messages += [set_transform(path, placement) for path, placement in moved.items()]
+        self._server.send(*messages)
+        self._placed.update(moved)
         self._last = snapshot
+
+    def _restarted(self) -> list[Message]:
+        """Forget the past, and return what takes it away from the page."""
+        self._trail.restart()
+        return self._drawing.restart()
 
 
 def _is_new_episode(last: Snapshot, snapshot: Snapshot) -> bool:
