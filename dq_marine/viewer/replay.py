@@ -21,6 +21,7 @@ from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
 from dq_marine.viewer.transport.messages import Message, set_animation, set_transform
 from dq_marine.viewer.transport.pages import REPLAY_PAGE
 from dq_marine.viewer.transport.three_json import Json, packed_floats
+from dq_marine.viewer.world.beams import draw_beams
 from dq_marine.viewer.world.drawing import JUMPING_PATHS, Drawing, checked_floor_depth, floor_below
 from dq_marine.viewer.world.trail import draw_trail
 
@@ -101,7 +102,7 @@ def make_replay(
     times = checked_times(snapshots)
     if floor_depth is None:
         floor_depth = floor_below(snapshots, shape)
-    messages = _messages(snapshots, times, Drawing(shape, checked_floor_depth(floor_depth)))
+    messages = _messages(snapshots, times, shape, Drawing(shape, checked_floor_depth(floor_depth)))
     return Replay(
         REPLAY_PAGE.substitute(
             title=html.escape(title),
@@ -139,12 +140,15 @@ def checked_times(snapshots: Sequence[Snapshot]) -> FloatArray:
     return times
 
 
-def _messages(snapshots: Sequence[Snapshot], times: FloatArray, drawing: Drawing) -> list[Message]:
+def _messages(
+    snapshots: Sequence[Snapshot], times: FloatArray, shape: Shape, drawing: Drawing
+) -> list[Message]:
     """Everything the page has to do: draw, place, animate."""
     messages = drawing.scenery(snapshots[0])
     for snapshot in snapshots:
         messages += drawing.appear(snapshot)
     frames = [drawing.placements(snapshot) for snapshot in snapshots]
+    messages += draw_beams(snapshots, shape)
     messages.append(draw_trail(np.array([snapshot.position_ned for snapshot in snapshots]), times))
     messages += [set_transform(path, placement) for path, placement in frames[0].items()]
     clips = [

@@ -34,7 +34,8 @@ STYLE = """
     font: 15px system-ui, sans-serif; color: #f2fbff; background: #0f5f86; border: 0;
     border-radius: 6px; padding: 6px 10px; cursor: pointer;
   }
-  #controls[hidden] { display: none; }
+  #controls [aria-pressed="false"] { opacity: 0.5; }
+  #controls[hidden], #controls [hidden] { display: none; }
   #play { width: 84px; }
   #slider { flex: 1; cursor: pointer; accent-color: #37c5d8; }
 """
@@ -81,6 +82,7 @@ CONTROLS = """
     <option value="5">5 x</option>
     <option value="20">20 x</option>
   </select>
+  <button id="beams" title="show or hide the beams of range sensors (B)" aria-pressed="true">Beams</button>
 </div>
 """
 
@@ -151,7 +153,7 @@ LEGEND = f"<style>{_file('legend.css')}</style>\n{_file('legend.html')}"
 EDGES = _inline(_file("edges.js"))
 """Before a page's viewer is made."""
 
-SEA = _inline(_file("sea.js")) + _inline(_file("wake.js"))
+SEA = _inline(_file("sea.js")) + _inline(_file("wake.js")) + _inline(_file("beams.js"))
 
 LIVE_PAGE = _page(
     "dq-marine",
@@ -194,6 +196,7 @@ REPLAY_PAGE = Template(
         EDGES,
         _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
         SEA,
+        _inline(_file("switch_beams.js")),
         _inline(_file("pace.js")),
         _inline(_file("legend.js").replace("$", "$$")),  # a template's dollars are doubled
     )

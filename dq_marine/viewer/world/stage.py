@@ -8,6 +8,7 @@ from dq_marine.viewer.placement import Placement
 from dq_marine.viewer.snapshot import Shape, Snapshot
 from dq_marine.viewer.transport.messages import set_transform
 from dq_marine.viewer.transport.server_process import ServerProcess
+from dq_marine.viewer.world.beams import draw_beams
 from dq_marine.viewer.world.drawing import Drawing
 from dq_marine.viewer.world.trail import Trail
 
@@ -25,7 +26,7 @@ class Stage:
             shape: the vehicle.
             floor_depth: depth of the sea floor [m], or None for one below vehicle and goal.
         """
-        self._server = server
+        self._server, self._shape = server, shape
         self._drawing = Drawing(shape, floor_depth)
         self._trail = Trail(TRAIL_SPACING_IN_LENGTHS * shape.length)
         self._placed: dict[str, Placement] = {}
@@ -50,6 +51,9 @@ class Stage:
             self.restart()
         for message in self._drawing.appear(snapshot):
             self._server.send(message)
+        if self._last is None or snapshot.beams != self._last.beams:
+            for message in draw_beams([snapshot], self._shape):
+                self._server.send(message)
         if self._trail.extend(snapshot.position_ned, snapshot.time):
             self._server.send(self._trail.message())
         for path, placement in self._drawing.placements(snapshot).items():
