@@ -76,7 +76,7 @@ def test_mounts_are_told_once_unless_they_turn() -> None:
 def replay(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
     path = tmp_path_factory.mktemp("beams") / "beams.html"
     save_replay(path, moments(), ROV)
-    with open_page(path.as_uri()) as shown:
+    with open_page(path.as_uri(), height=560) as shown:  # lower ones have no legend
         yield shown
 
 
@@ -126,7 +126,7 @@ def test_in_a_live_page_they_keep_their_shader_follow_and_can_be_hidden() -> Non
         viewer.draw(seeing([1.0, 2.0], time=1.0))
         with open_page(viewer.url) as page:
             page.wait_until(f"{LINES} && {PLACES}.count === {2 * VERTICES}")
-            page.evaluate(f"window.first = [{LINES}, {LINES}.material, {PLACES}]")
+            page.evaluate(f"window.first = [{LINES}, {LINES}.material, {PLACES}]; true")
             viewer.draw(seeing([3.0, 2.0], time=1.1))
             page.wait_until(f"{LINES}.userData.distances[0] === 3")
             page.wait_until(f"Math.hypot({PLACES}.getX(1) - 0.2, {PLACES}.getY(1)) > 2.99")

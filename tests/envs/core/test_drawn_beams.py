@@ -1,4 +1,4 @@
-"""Beams that are drawn: their marks lie on what they meet, at what the agent was told, and no bit of an episode changes."""
+"""Beams that are drawn: their marks lie on what they meet, at what the agent was told; no bit of an episode changes."""
 
 import gymnasium as gym
 import numpy as np
