@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, ClassVar
 
 import gymnasium as gym
@@ -16,7 +15,7 @@ from dq_marine.agents.environments import marine
 from dq_marine.agents.settings import AutopilotSettings, GroundSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
-from dq_marine.task.world.beams import ground_bearings
+from dq_marine.task.world.beams import directions_ahead
 
 
 class TerrainController(GroundJourney):
@@ -41,7 +40,7 @@ class TerrainController(GroundJourney):
         """Prepare for an environment's vehicle; None reads the presets `over_ground` and `autopilot`."""
         super().__init__(env, settings, autopilot)
         beams = len(self._read(marine(env).observation_bound)["ground_ahead_readings"]) + 1
-        self._beams_body = [(math.cos(below), 0.0, math.sin(below)) for below in ground_bearings(beams)]
+        self._beams_body = directions_ahead(beams)
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""

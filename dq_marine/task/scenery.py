@@ -1,4 +1,4 @@
-"""What the worlds of tasks look like: pillars, other vessels, docks and lines to follow, as things to draw."""
+"""What the worlds of tasks look like: pillars, other vessels, docks and lines to follow, as things to draw; beams."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from dq_marine.task.acoustics import Sender
 from dq_marine.task.berths import Berth, Harbour, from_berth
 from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
-from dq_marine.task.things import Block, Column, Cone, Line, Relief, ShipHull, Thing, TorpedoHull, Tube
+from dq_marine.task.things import Beam, Block, Column, Cone, Line, Relief, ShipHull, Thing, TorpedoHull, Tube
 from dq_marine.task.traffic import OtherVessel
 from dq_marine.task.world.pillars import Pillar
 
@@ -139,6 +139,14 @@ def pipe_seen(
     places = [from_above(point) for point in route]
     axis = tuple((north, east, depth(ground, north, east) - radius) for north, east in places)
     return [*ground_seen(depth, ground, places, margin), Thing(Tube(axis, radius))]
+
+
+def beams_seen(directions_body: Sequence[Vector3], readings: Sequence[float], reach: float) -> list[Beam]:
+    """Return beams from the vehicle's origin, by their readings: shares of a reach [m], 1 where no echo came back."""
+    return [
+        Beam(direction, reading * reach, reach)
+        for direction, reading in zip(directions_body, readings, strict=True)
+    ]
 
 
 def _sampled(along: Sequence[float], margin: float) -> tuple[float, ...]:

@@ -1,6 +1,7 @@
-"""What surrounds a vehicle, for drawing only: things of a fixed form, each at a place.
+"""What surrounds a vehicle, for drawing only: things of a fixed form, each at a place, and the beams that see them.
 
-A task says by `scenery(parameters, memory)` which things there are now; what it computes with is its own affair.
+A task says by `scenery(parameters, memory)` which things there are now, and by `beams(parameters, memory)` what its
+beams show the agent; what it computes with is its own affair.
 """
 
 from __future__ import annotations
@@ -84,3 +85,19 @@ class Thing(NamedTuple):
     form: Form
     position_ned: Vector3 = (0.0, 0.0, 0.0)
     attitude: Quaternion = LEVEL
+
+
+class Beam(NamedTuple):
+    """A beam of a range sensor, and what it tells.
+
+    Attributes:
+        direction_body: unit vector in body axes.
+        distance: that it tells [m]; its reach where no echo came back.
+        reach: the largest distance that it can tell [m].
+        origin_body: where it begins in body axes [m].
+    """
+
+    direction_body: Vector3
+    distance: float
+    reach: float
+    origin_body: Vector3 = (0.0, 0.0, 0.0)

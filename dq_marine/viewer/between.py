@@ -41,7 +41,8 @@ def between(earlier: Snapshot, later: Snapshot, time: float) -> Snapshot:
     """Return the motion at a time between two snapshots [s].
 
     Poses follow the one screw that leads from the one to the other; forces and water change evenly. A goal does not
-    travel: the earlier one stands until the later snapshot, and so does a thing that is not there in both.
+    travel: the earlier one stands until the later snapshot, and so does what beams tell, and
+    a thing that is not there in both.
     """
     length = later.time - earlier.time
     share = (time - earlier.time) / length if length > 0.0 else 1.0

@@ -23,6 +23,7 @@ from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
 from dq_marine.viewer.transport.messages import Message, set_transform
 from dq_marine.viewer.transport.pages import REPLAY_PAGE
 from dq_marine.viewer.transport.three_json import Json
+from dq_marine.viewer.world.beams import draw_beams
 from dq_marine.viewer.world.drawing import Drawing, checked_floor_depth, floor_below
 from dq_marine.viewer.world.trail import TRAIL_YELLOW, draw_trail
 
@@ -100,7 +101,8 @@ def make_replay(
     if floor_depth is None:
         floor_depth = floor_below(snapshots, shape)
     messages, clips = staged(snapshots, times, Drawing(shape, checked_floor_depth(floor_depth)))
-    page = filled(REPLAY_PAGE, title, messages + animation(clips), times=script_json(times.tolist()))
+    messages += [*draw_beams(snapshots, shape), *animation(clips)]
+    page = filled(REPLAY_PAGE, title, messages, times=script_json(times.tolist()))
     return Replay(page)
 
 

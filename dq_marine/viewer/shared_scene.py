@@ -78,8 +78,8 @@ def same_goal(one: Recorded, other: Recorded) -> bool:
 def stage_of(flights: Sequence[Recorded]) -> list[Snapshot]:
     """Return the snapshots by which the scene is drawn: the first flight's, until the longest flight ends.
 
-    After its end the first vehicle stands still, while the things around and a goal that it shares go on. Thrust is
-    left out, and so is a current or a wind that is not the same in all flights.
+    After its end the first vehicle stands still, while the things around and a goal that it shares go on. Thrust and
+    beams are left out, and so is a current or a wind that is not the same in all flights.
     """
     first = flights[0]
     longest = max(flights, key=lambda flight: flight.end)  # the first of those as long
@@ -106,6 +106,7 @@ def stage_of(flights: Sequence[Recorded]) -> list[Snapshot]:
             one,
             wrench_body=np.zeros(6),
             thrusts=(),
+            beams=(),
             current_ned=one.current_ned if flowing else np.zeros(3),
             wind_ned=one.wind_ned if blowing else None,
         )

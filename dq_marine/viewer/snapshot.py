@@ -13,10 +13,10 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.checks import finite_array, shown, unit_quaternion
+from dq_marine.checks import finite_array, finite_number, shown, unit_quaternion
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.waves.sea import Sea
-from dq_marine.task.things import Form, Thing
+from dq_marine.task.things import Beam, Form, Thing
 
 FloatArray = NDArray[np.float64]
 ShapeKind = Literal["open_frame", "torpedo", "ellipsoid", "catamaran", "ship"]
@@ -34,6 +34,9 @@ SNAPSHOT_ARRAYS = {
 
 OPTIONAL = ("wind_ned", "goal_position_ned", "goal_quaternion_body_to_ned")
 """Those that may be None."""
+
+UNIT_TOLERANCE = 1e-6
+"""Of the length of directions: what is drawn at a distance along them is as far off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,11 +76,12 @@ class Snapshot:
         thrusts: the force of each actuator, where they are known one by one; `wrench_body` is of all.
         wind_ned: velocity of the mean wind [m/s], shape (3,), or None without wind.
         things: what is around the vehicle.
+        beams: of range sensors, with what they tell; the marks of their echoes are drawn at the distances told.
         sea: the waves; None for a calm surface.
         sea_start: time of the sea when `time` is 0 [s].
 
     Raises:
-        InvalidInputError: a wrong size, a value that is not finite, or a quaternion that is not unit.
+        InvalidInputError: a wrong size, a value that is not finite, or a quaternion or direction that is not unit.
     """
 
     time: float
@@ -90,6 +94,7 @@ class Snapshot:
     thrusts: tuple[Thrust, ...] = ()
     wind_ned: FloatArray | None = None
     things: tuple[Thing, ...] = ()
+    beams: tuple[Beam, ...] = ()
     sea: Sea | None = None
     sea_start: float = 0.0
 
@@ -117,6 +122,8 @@ class Snapshot:
                 )
             finite_array(f"things[{number}].position_ned", thing.position_ned, 3)
             unit_quaternion(f"things[{number}].attitude", thing.attitude)
+        for number, beam in enumerate(self.beams):
+            _check_beam(f"beams[{number}]", beam)
 
 
 def at_rest(depth: float) -> Snapshot:
@@ -208,6 +215,23 @@ class Shape:
     def size(self) -> float:
         """The largest dimension [m]."""
         return max(self.length, self.width, self.height)
+
+
+def _check_beam(name: str, beam: Beam) -> None:
+    """Check a beam of a snapshot.
+
+    Raises:
+        InvalidInputError: it is none, its direction is not unit, or its distance not within 0 and its reach.
+    """
+    if not isinstance(beam, Beam):
+        raise InvalidInputError(f"{name} is {shown(beam)}; give a dq_marine.task.things.Beam")
+    reach = finite_number(f"{name}.reach", beam.reach, above=0.0)
+    finite_number(f"{name}.distance", beam.distance, least=0.0, most=reach)
+    finite_array(f"{name}.origin_body", beam.origin_body, 3)
+    finite_array(f"{name}.direction_body", beam.direction_body, 3)
+    length = math.hypot(*beam.direction_body)
+    if abs(length - 1.0) > UNIT_TOLERANCE:
+        raise InvalidInputError(f"{name}.direction_body has length {length:g}; give a unit vector")
 
 
 def _set_read_only(owner: object, name: str, values: FloatArray) -> None:

@@ -16,7 +16,7 @@ from dq_marine.algebra.vector3 import Vector3
 from dq_marine.checks import finite_number, one_of, shown
 from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.task.protocol import Task
-from dq_marine.task.things import Thing
+from dq_marine.task.things import Beam, Thing
 from dq_marine.task.traffic import Own
 
 if TYPE_CHECKING:
@@ -122,6 +122,11 @@ def nothing_around(parameters: Any, memory: Any) -> Sequence[Thing]:
     return ()
 
 
+def no_beams(parameters: Any, memory: Any) -> Sequence[Beam]:
+    """Return that there are no range sensors to draw."""
+    return ()
+
+
 def suits_all(vehicle: Vehicle) -> str | None:
     """Return that any vehicle can do the task."""
     return None
@@ -150,6 +155,8 @@ class TaskDefinition:
         tolerances: of some metrics: an episode is settled from when on all of them stay within.
         goal: (parameters, memory) -> the goal to be drawn.
         scenery: (parameters, memory) -> what is around the vehicle, to be drawn.
+        beams: (parameters, memory) -> the beams of the task's range sensors, with what they tell the agent now, to be
+            drawn.
         collided: (parameters, memory) -> whether the vehicle has hit something since the start, for evaluations; None
             of a task with nothing to hit.
         meets: (parameters, memory) -> one's own vessel, of a task whose memory has a `Lookout` called `lookout`, into
@@ -182,6 +189,7 @@ class TaskDefinition:
     tolerances: Mapping[str, float] = field(default_factory=dict)
     goal: Callable[[Any, Any], Goal | None] = no_goal
     scenery: Callable[[Any, Any], Sequence[Thing]] = nothing_around
+    beams: Callable[[Any, Any], Sequence[Beam]] = no_beams
     collided: Callable[[Any, Any], Any] | None = None
     meets: Callable[[Any, Any], Own] | None = None
     goal_reward: Callable[[Any, Any, Any, Any], float] | None = None

@@ -325,6 +325,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
             goal_position_ned=None if goal is None else np.array(goal.position_ned),
             goal_quaternion_body_to_ned=None if goal is None else np.array(goal.attitude),
             things=tuple(self.definition.scenery(parameters, memory)),
+            beams=tuple(self.definition.beams(parameters, memory)),
             sea=self.sea,
             sea_start=episode.clock,
         )

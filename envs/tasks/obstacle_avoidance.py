@@ -16,9 +16,16 @@ from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
-from dq_marine.task.scenery import pillars_seen
+from dq_marine.task.scenery import beams_seen, pillars_seen
 from dq_marine.task.starts import under_way
-from dq_marine.task.world.beams import FORWARD, fan_bearings, make_errors, make_fan, make_readings
+from dq_marine.task.world.beams import (
+    FORWARD,
+    fan_bearings,
+    fan_directions,
+    make_errors,
+    make_fan,
+    make_readings,
+)
 from dq_marine.task.world.pillars import (
     Hull,
     field_draws,
@@ -32,7 +39,8 @@ from dq_marine.task.world.pillars import (
 ROWS, COLUMNS, BEAMS = 4, 3, 24  # of the field; and how many beams see what is ahead
 PILLARS = ROWS * COLUMNS
 drawn_field, drifted, nearest = make_field(ROWS, COLUMNS), make_drifted(PILLARS), make_nearest(PILLARS)
-fan = make_fan(fan_bearings(BEAMS, FORWARD), pillars_cast)
+BEARINGS = fan_bearings(BEAMS, FORWARD)
+fan = make_fan(BEARINGS, pillars_cast)
 drawn_errors, readings = make_errors(BEAMS), make_readings(BEAMS)
 EXACT = (0.0,) * BEAMS  # errors before there are readings
 LEAST_DEPTH = 20.0  # of starts of vehicles that do not float; ten lengths of long ones [m]
@@ -225,6 +233,11 @@ def terminated(own: Parameters, now: Situation) -> Any:
 def goal(own: Parameters, memory: Memory) -> Goal:
     """Return the goal, for drawing."""
     return Goal(memory.goal_ned)
+
+
+def beams(own: Parameters, memory: Memory) -> Any:
+    """Return what the beams tell, for drawing."""
+    return beams_seen(fan_directions(BEARINGS), readings(memory.ranges, memory.errors, own.reach), own.reach)
 
 
 define_task(

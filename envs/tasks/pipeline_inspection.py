@@ -20,12 +20,12 @@ from dq_marine.task.ground_flight import FlightRewards as Rewards
 from dq_marine.task.ground_flight import GroundFlight, flight_rewards
 from dq_marine.task.grounds import Grounds, ground_draws, ground_of
 from dq_marine.task.protocol import Situation, Start
-from dq_marine.task.scenery import along_curve, pipe_seen
+from dq_marine.task.scenery import along_curve, beams_seen, pipe_seen
 from dq_marine.task.splines import make_spline, make_winding, winding_draws
 from dq_marine.task.starts import under_way
 from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
 from dq_marine.task.world import pipes
-from dq_marine.task.world.beams import NO_ECHO, make_fan_across, make_readings
+from dq_marine.task.world.beams import NO_ECHO, directions_across, make_fan_across, make_readings
 from dq_marine.task.world.keel import make_keel_over
 from dq_marine.task.world.pipes import LaidPipe, Sight, View, beside_pipe, detected, sight
 
@@ -235,6 +235,12 @@ def scenery(own: Parameters, memory: Memory) -> Any:
     """Return the pipe and the seabed about it, for drawing."""
     way = along_curve(lambda s: point_at(memory.controls, s).position_ned, float(SPANS))
     return pipe_seen(*ground_of(own.flight, memory.ground, WAVES), way, own.radius, 2.0 * own.flight.altitude)
+
+
+def beams(own: Parameters, memory: Memory) -> Any:
+    """Return what the sonar's beams tell, for drawing."""
+    told = readings(memory.shown.ranges, memory.errors.ranges, own.flight.reach)
+    return beams_seen(directions_across(BEAMS), told, own.flight.reach)
 
 
 define_task(

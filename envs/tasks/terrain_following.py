@@ -20,11 +20,11 @@ from dq_marine.task.ground_flight import FlightRewards as Rewards
 from dq_marine.task.ground_flight import GroundFlight, flight_rewards
 from dq_marine.task.grounds import Grounds, ground_draws, ground_of
 from dq_marine.task.protocol import Situation, Start
-from dq_marine.task.scenery import ground_seen
+from dq_marine.task.scenery import beams_seen, ground_seen
 from dq_marine.task.starts import under_way
 from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
 from dq_marine.task.tracks import on_track
-from dq_marine.task.world.beams import make_errors, make_fan_ahead, make_readings
+from dq_marine.task.world.beams import directions_ahead, make_errors, make_fan_ahead, make_readings
 from dq_marine.task.world.keel import make_keel_over
 
 WAVES, BEAMS = 4, 6  # of the seabed; and beams, the last of which is the altimeter
@@ -219,6 +219,12 @@ def scenery(own: Parameters, memory: Memory) -> Any:
     north, east = memory.course
     track = ((0.0, 0.0), (own.track * north, own.track * east))
     return ground_seen(*ground_of(own.flight, memory.ground, WAVES), track, 3.0 * own.flight.altitude)
+
+
+def beams(own: Parameters, memory: Memory) -> Any:
+    """Return what the beams tell, for drawing."""
+    reach = own.flight.reach
+    return beams_seen(directions_ahead(BEAMS), readings(memory.ranges, memory.errors, reach), reach)
 
 
 def goal(own: Parameters, memory: Memory) -> Goal:

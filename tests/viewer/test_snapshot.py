@@ -9,6 +9,7 @@ import pytest
 from viewer.samples import ROV, snapshot
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.task.things import Beam
 from dq_marine.viewer.snapshot import Shape, Thrust, Thruster
 
 
@@ -39,6 +40,11 @@ def test_single_precision_and_lists_become_doubles() -> None:
         ("goal_quaternion_body_to_ned", [0.0] * 4, "goal_quaternion_body_to_ned.*unit"),
         ("wind_ned", [1.0, 2.0], "wind_ned has shape"),
         ("thrusts", ([1.0, 0.0, 0.0],), r"thrusts\[0\] is"),
+        ("beams", ([1.0, 0.0, 0.0],), r"beams\[0\] is"),
+        ("beams", (Beam((1.0, 0.1, 0.0), 1.0, 2.0),), r"beams\[0\].direction_body has length 1.00499"),
+        ("beams", (Beam((1.0, 0.0, 0.0), 2.1, 2.0),), r"beams\[0\].distance = 2.1"),
+        ("beams", (Beam((1.0, 0.0, 0.0), float("nan"), 2.0),), r"beams\[0\].distance"),
+        ("beams", (Beam((1.0, 0.0, 0.0), 0.0, 0.0),), r"beams\[0\].reach"),
     ],
 )
 def test_bad_snapshots_are_refused(field: str, value: Any, complaint: str) -> None:

@@ -44,6 +44,23 @@ def ground_bearings(beams: int) -> tuple[float, ...]:
     return tuple(HIGHEST_BEAM + step * i for i in range(beams))
 
 
+def fan_directions(
+    bearings: tuple[float, ...], middle: Vector3 = BOW, side: Vector3 = STARBOARD
+) -> tuple[Vector3, ...]:
+    """Return the directions of the beams of `make_fan`, unit vectors in the body frame."""
+    return tuple(add_scaled(scale(math.cos(one), middle), math.sin(one), side) for one in bearings)
+
+
+def directions_ahead(beams: int) -> tuple[Vector3, ...]:
+    """Return the directions of the beams of `make_fan_ahead`, unit vectors in the body frame."""
+    return fan_directions(ground_bearings(beams), BOW, DOWN)
+
+
+def directions_across(beams: int) -> tuple[Vector3, ...]:
+    """Return the directions of the beams of `make_fan_across`, unit vectors in the body frame."""
+    return fan_directions(fan_bearings(beams, SWATH), DOWN, STARBOARD)
+
+
 def make_fan(
     bearings: tuple[float, ...], cast: Cast, middle: Vector3 = BOW, side: Vector3 = STARBOARD
 ) -> Callable[[Any, Vector3, Quaternion, float], Any]:

@@ -34,7 +34,8 @@ STYLE = """
     font: 15px system-ui, sans-serif; color: #f2fbff; background: #0f5f86; border: 0;
     border-radius: 6px; padding: 6px 10px; cursor: pointer;
   }
-  #controls[hidden] { display: none; }
+  #controls [aria-pressed="false"] { opacity: 0.5; }
+  #controls[hidden], #controls [hidden] { display: none; }
   #play { width: 84px; }
   #slider { flex: 1; cursor: pointer; accent-color: #37c5d8; }
 """
@@ -56,7 +57,8 @@ CAPTION_SCRIPT = """
   function update_caption() {
     const depth = node("world", "vehicle").position.z;
     const {cell, afloat} = node("world", "floor", "sand", "<object>").userData;
-    const place = afloat ? "height " + (-depth).toFixed(2) : "depth " + depth.toFixed(2);
+    const hundredths = (metres) => (Math.round(100 * metres) / 100 + 0).toFixed(2);  // no "-0.00"
+    const place = afloat ? "height " + hundredths(-depth) : "depth " + hundredths(depth);
     show("clock", node("world", "clock").position.x.toFixed(1) + " s");
     show("details", place + " m" + (cell ? " · grid " + cell + " m" : ""));
     requestAnimationFrame(update_caption);
@@ -81,6 +83,7 @@ CONTROLS = """
     <option value="5">5 x</option>
     <option value="20">20 x</option>
   </select>
+  <button id="beams" title="show or hide the beams of range sensors (B)" aria-pressed="true">Beams</button>
 </div>
 """
 
@@ -153,7 +156,7 @@ LEGEND = f"<style>{_file('legend.css')}</style>\n{_file('legend.html')}"
 EDGES = _inline(_file("edges.js"))
 """Before a page's viewer is made."""
 
-SEA = _inline(_file("sea.js")) + _inline(_file("wake.js"))
+SEA = _inline(_file("sea.js")) + _inline(_file("wake.js")) + _inline(_file("beams.js"))
 
 LIVE_PAGE = _page(
     "dq-marine",
@@ -210,6 +213,7 @@ def _replay_page(body: str, *scripts: str, data: str = REPLAY_DATA_SCRIPT) -> Te
             EDGES,
             _inline(REPLAY_SCRIPT + CAPTION_SCRIPT + CONTROLS_SCRIPT),
             SEA,
+            _inline(_file("switch_beams.js")),
             _inline(_file("pace.js")),
             _inline(_literal(_file("legend.js"))),
             *map(_literal, scripts),

@@ -121,6 +121,18 @@ def polyline(path: str, points: FloatArray, color: int, user_data: Mapping[str, 
     return _object(path, "Line", _geometry(position=points), material, user_data)
 
 
+def line_segments(path: str, user_data: Mapping[str, Any]) -> Json:
+    """Lines, one pixel wide, that the page lays and colours by the data; of no extent before."""
+    material = {
+        "type": "LineBasicMaterial",
+        "vertexColors": True,
+        "transparent": True,
+        "depthWrite": False,
+        "fog": False,
+    }
+    return _object(path, "LineSegments", _geometry(position=np.zeros((2, 3))), material, user_data)
+
+
 def bare_object(kind: str, **properties: Any) -> Json:
     """An object without a surface, such as a lamp or a camera."""
     return {"metadata": METADATA, "object": {"uuid": kind, "type": kind, **properties}}

@@ -22,7 +22,7 @@ def write_caption(picture: Any, snapshot: Snapshot, *, afloat: bool) -> None:
     margin = 0.03 * picture.height
     top = margin
     depth = float(snapshot.position_ned[2])
-    place = f"height {-depth:.2f} m" if afloat else f"depth {depth:.2f} m"
+    place = f"height {-depth:z.2f} m" if afloat else f"depth {depth:z.2f} m"
     lines = [(f"{snapshot.time:.1f} s", CLOCK_SHARE), (place, DETAIL_SHARE)]
     for text, share in lines:
         size = max(share * picture.height, 8.0)

@@ -8,6 +8,7 @@ Everything hangs under `/world`, whose frame is NED:
 | `/world/goal/ghost`, `/world/goal/ball` | the pose to reach; a ball where any attitude will do |
 | `/world/thrust/...`, `/world/current/...` | arrows of the forces that are applied, and of the water's motion |
 | `/world/trail` | past positions |
+| `/world/beams` | the beams of range sensors, in body axes |
 | `/world/floor/...`, `/world/surface`, `/world/specks`, `/world/shadow` | the sea |
 | `/world/wake` | foam behind a vessel that floats |
 | `/world/flights/...` | the other flights of an overlaid replay: vehicle, trail, goal (`viewer/overlay.py`) |
@@ -41,6 +42,7 @@ from dq_marine.viewer.placement import (
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
 from dq_marine.viewer.transport.messages import Message
 from dq_marine.viewer.world.arrows import Arrows
+from dq_marine.viewer.world.beams import BEAMS
 from dq_marine.viewer.world.camera import LEASH_IN_LENGTHS, LeashedView, place_camera
 from dq_marine.viewer.world.dials import dial_placements
 from dq_marine.viewer.world.sea import (
@@ -101,6 +103,7 @@ class Drawing:
         self._floor_depth: float | None = None
         self._things = Things()
         self._arrows = Arrows(shape)
+        self._has_beams = False
         self._sea: tuple[Sea | None, float] = (None, 0.0)
 
     def restart(self) -> list[Message]:
@@ -127,6 +130,7 @@ class Drawing:
 
     def appear(self, snapshot: Snapshot) -> list[Message]:
         """Draw what a snapshot has and has not been drawn; before its placements."""
+        self._has_beams = self._has_beams or bool(snapshot.beams)
         return [
             *self._new_sea(snapshot),
             *self._things.appear(snapshot),
@@ -154,12 +158,18 @@ class Drawing:
             CLOCK: Placement((snapshot.time, 0.0, 0.0)),  # first: by it the live page knows what may glide
             WORLD: Placement((-north, east, down), NED_TO_Z_UP),
             VEHICLE: pose,
+            **self._beam_placements(snapshot, pose),
             **goal_placements(snapshot),
             **self._things.placements(snapshot),
             **self._arrows.placements(snapshot, body_to_ned),
             **dial_placements(snapshot, body_to_ned),
             **self._sea_placements(snapshot, anchor),
         }
+
+    def _beam_placements(self, snapshot: Snapshot, pose: Placement) -> dict[str, Placement]:
+        if not self._has_beams:
+            return {}
+        return {BEAMS: pose if snapshot.beams else hidden_at(pose.position)}
 
     def _sea_placements(self, snapshot: Snapshot, anchor: FloatArray) -> dict[str, Placement]:
         period, block = self._scale.period, self._scale.speck_block

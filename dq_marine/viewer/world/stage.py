@@ -8,6 +8,7 @@ from dq_marine.viewer.placement import Placement
 from dq_marine.viewer.snapshot import Shape, Snapshot
 from dq_marine.viewer.transport.messages import Message, set_transform
 from dq_marine.viewer.transport.server_process import ServerProcess
+from dq_marine.viewer.world.beams import draw_beams
 from dq_marine.viewer.world.drawing import Drawing
 from dq_marine.viewer.world.trail import Trail
 
@@ -25,7 +26,7 @@ class Stage:
             shape: the vehicle.
             floor_depth: depth of the sea floor [m], or None for one below vehicle and goal.
         """
-        self._server = server
+        self._server, self._shape = server, shape
         self._drawing = Drawing(shape, floor_depth)
         self._trail = Trail(TRAIL_SPACING_IN_LENGTHS * shape.length)
         self._placed: dict[str, Placement] = {}
@@ -47,6 +48,8 @@ class Stage:
         elif _is_new_episode(self._last, snapshot):
             messages += self._restarted()
         messages += self._drawing.appear(snapshot)
+        if self._last is None or snapshot.beams != self._last.beams:
+            messages += draw_beams([snapshot], self._shape)
         if self._trail.extend(snapshot.position_ned, snapshot.time):
             messages.append(self._trail.message())
         moved = {

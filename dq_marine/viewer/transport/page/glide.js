@@ -4,7 +4,7 @@
 
 const glide = (() => {
   const CLOCK = "/world/clock";
-  const GLIDING = ["/world", "/world/vehicle", "/world/shadow", CLOCK], GLIDING_CHILDREN = "/world/thrust";
+  const GLIDING = ["/world", "/world/vehicle", "/world/beams", "/world/shadow", CLOCK], GLIDING_CHILDREN = "/world/thrust";
   const LONGEST = 2000, AFTER_A_PAUSE = 150;  // milliseconds from one message to the next
   const find = (path) => viewer.scene_tree.find(path.slice(1).split("/"));
 

@@ -5,7 +5,7 @@
 
 (() => {
   const RED = "#ff4a3a", WHITE = "#e8fbff", YELLOW = "#ffe66d", GREEN = "#5cffa0", VIOLET = "#c24bff";
-  const PEACH = "#ffc98a", CYAN = "#4fd1ff";
+  const PEACH = "#ffc98a", CYAN = "#4fd1ff", PINK = "#ff4fc8";
   const LONGEST = 90, OFTEN = 100;  // pixels of a scale's arrow; milliseconds from one look at the scene to the next
   const UNITS = [[1e6, "MN"], [1e3, "kN"], [1, "N"]];
   const SMALL = 1e-3;  // what is drawn smaller is hidden
@@ -38,9 +38,9 @@
 
   const thrust = arrow_row("legend-thrust", RED), current = arrow_row("legend-current", WHITE);
   const wind = spot_row("legend-wind", PEACH), waves = spot_row("legend-waves", CYAN);
-  const goal = spot(GREEN, "goal");
+  const goal = spot(GREEN, "goal"), echo = spot(PINK, "echo of a beam");
   const track = typeof overlay === "object" ? [] : spot(YELLOW, "track");  // flights that are overlaid have a colour each
-  const spots = make("div", {className: "row spots"}, ...spot(VIOLET, "bow"), ...track, ...goal);
+  const spots = make("div", {className: "row spots"}, ...spot(VIOLET, "bow"), ...track, ...goal, ...echo);
   element("legend-rows").append(thrust.row, current.row, wind.row, waves.row, spots);
 
   // Numbers
@@ -142,6 +142,7 @@
     write(waves.words, `waves from ${bearing(-sea.x, -sea.y)}, Hs ${plain(height)} m, Tp ${plain(sea.z)} s`);
     const aims = ["ghost", "ball"].some((kind) => node("world", "goal", kind).scale.x > SMALL);
     for (const part of goal) { part.hidden = !aims; }
+    for (const part of echo) { part.hidden = !beams.present() || !node("world", "beams").visible; }
     const coming = (color, there) => ({color, azimuth: Math.atan2(there.y, there.x), from: -1, to: -0.3});
     const arrows = [
       ...(height > SMALL ? [coming(CYAN, sea)] : []),

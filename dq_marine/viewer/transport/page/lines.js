@@ -1,4 +1,5 @@
-// A line that is drawn anew, as the trail is at every picture, keeps its material and takes the new points. With the last
+// A line that is drawn anew, as the trail is at every picture, keeps its material and takes the new points; beams, which
+// beams.js lays, keep their points, too, and take the new data. With the last
 // material of its kind its program would go, too, and be compiled again for the next one, which takes longer than a picture.
 "use strict";
 
@@ -11,8 +12,9 @@
       set_object.call(this, drawn);
       return;
     }
-    old.geometry.dispose();
-    old.geometry = drawn.geometry;
+    const [kept, left] = old.isLineSegments ? [old, drawn] : [drawn, old];
+    left.geometry.dispose();
+    old.geometry = kept.geometry;
     old.userData = drawn.userData;
     drawn.material.dispose();
   };

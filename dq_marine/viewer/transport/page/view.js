@@ -15,6 +15,7 @@
     "forces": ["/world/thrust"],
     "current": ["/world/current"],
     "trail": ["/world/trail"],
+    "beams": ["/world/beams"],
     "goal": ["/world/goal"],
     "sea floor and grid": ["/world/floor"],
     "surface": ["/world/surface"],
@@ -139,6 +140,7 @@
     return row(label, box);
   });
 
+  panel.bind("KeyB", "beams of range sensors", () => document.getElementById("view-beams").click());
   section.append(row("camera", list), ...switches);
   panel.fill_help();
   each_frame();
