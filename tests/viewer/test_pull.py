@@ -147,7 +147,8 @@ def test_who_looks_elsewhere_or_begins_another_episode_lets_go(viewer, page, mid
 def test_a_page_that_is_loaded_again_or_closed_lets_go(viewer) -> None:
     with open_page(viewer.url, width=1000, height=700) as other:
         for close in (False, True):
-            other.wait_until("!window.old && panel.holds.length === 1 && panel.connected()")
+            # Until its script has run, `panel` is the element of that name.
+            other.wait_until("!window.old && panel.holds?.length === 1 && panel.connected()")
             other.wait_until("viewer.scene_tree.find(['world', 'vehicle']).object.children.length > 3")
             other.wait_until("glide.at_rest()")
             time.sleep(0.3)
