@@ -172,10 +172,10 @@ class Conductor:
     def goes_on_after(self, notice: str) -> bool:
         """Show how an episode ended, and wait; return whether the person wants another one."""
         self._playback.take(Event(PLAYING, False))
-        self._viewer.show_values({PLAYING: False})
-        self._viewer.show_notice(notice)
-        self._show(at_once=True)
         try:
+            self._viewer.show_values({PLAYING: False})
+            self._viewer.show_notice(notice)
+            self._show(at_once=True)
             self._playback.wait(self._flying.time, self._hear)
         except FlightEndedError:
             pass

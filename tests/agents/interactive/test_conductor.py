@@ -52,6 +52,16 @@ def test_at_its_end_an_episode_waits_for_play_and_says_how_it_went(flight) -> No
     assert any("The task is not done after 1.0 s" in notice for notice in page.notices)
 
 
+def test_ctrl_c_as_the_end_of_an_episode_is_shown_ends_the_flight(flight, monkeypatch) -> None:
+    def interrupted(page: ScriptedPage, text: str) -> None:
+        if text.startswith("The task is not done"):
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(ScriptedPage, "show_notice", interrupted)
+    episode, _ = flight([[]] * 20, seconds=1.0)
+    assert len(episode.actions) == 10
+
+
 def test_who_flies_is_chosen_by_name(flight) -> None:
     script = [
         [],
