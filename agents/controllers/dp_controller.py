@@ -237,14 +237,13 @@ class DPController:
     def _relief(self, goal_to_body: Array, shortfall: Array) -> Array:
         """Return what back-calculation adds to z in a control period, in body axes, shape (6,).
 
-        It is cut off at zero as a wrench in body axes, since that is where actuators saturate: each axis then gives
-        way by its own shortfall alone, whatever the goal's direction and however the mass matrix couples the axes.
+        It is cut off at zero in body axes, since that is where actuators saturate: an axis whose actuators are not
+        at their limit keeps its share, whatever the goal's direction.
         """
-        before = self._mass_matrix @ both_halves(goal_to_body, self._integral_in_goal)
-        fed_back = self.control_period * self._anti_windup_rate * shortfall
-        relieved = np.clip(before + fed_back, np.minimum(before, 0.0), np.maximum(before, 0.0))
-        relief: Array = self._inverse_mass_matrix @ (relieved - before)
-        return relief
+        before = both_halves(goal_to_body, self._integral_in_goal)
+        fed_back = self.control_period * self._anti_windup_rate * self._inverse_mass_matrix @ shortfall
+        relieved: Array = np.clip(before + fed_back, np.minimum(before, 0.0), np.maximum(before, 0.0))
+        return relieved - before
 
     def _check_rate(self) -> None:
         """A velocity loop held over a period T is stable for k_d T < 2 and even-tempered below 1."""

@@ -141,11 +141,21 @@ def pipe_seen(
     return [*ground_seen(depth, ground, places, margin), Thing(Tube(axis, radius))]
 
 
-def beams_seen(directions_body: Sequence[Vector3], readings: Sequence[float], reach: float) -> list[Beam]:
-    """Return beams from the vehicle's origin, by their readings: shares of a reach [m], 1 where no echo came back."""
+def beams_seen(
+    directions_body: Sequence[Vector3], readings: Callable[..., Any], ranges: Any, errors: Any, reach: float
+) -> list[Beam]:
+    """Return beams from the vehicle's origin, by what they tell the agent: the whole reach where no echo came back.
+
+    Args:
+        directions_body: of the beams, unit vectors.
+        readings: of `make_readings`.
+        ranges: of the beams [m].
+        errors: of their readings.
+        reach: the largest range [m].
+    """
     return [
         Beam(direction, reading * reach, reach)
-        for direction, reading in zip(directions_body, readings, strict=True)
+        for direction, reading in zip(directions_body, readings(ranges, errors, reach), strict=True)
     ]
 
 

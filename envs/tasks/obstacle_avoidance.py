@@ -18,14 +18,7 @@ from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import beams_seen, pillars_seen
 from dq_marine.task.starts import under_way
-from dq_marine.task.world.beams import (
-    FORWARD,
-    fan_bearings,
-    fan_directions,
-    make_errors,
-    make_fan,
-    make_readings,
-)
+from dq_marine.task.world.beams import directions_forward, make_errors, make_fan_forward, make_readings
 from dq_marine.task.world.pillars import (
     Hull,
     field_draws,
@@ -39,8 +32,7 @@ from dq_marine.task.world.pillars import (
 ROWS, COLUMNS, BEAMS = 4, 3, 24  # of the field; and how many beams see what is ahead
 PILLARS = ROWS * COLUMNS
 drawn_field, drifted, nearest = make_field(ROWS, COLUMNS), make_drifted(PILLARS), make_nearest(PILLARS)
-BEARINGS = fan_bearings(BEAMS, FORWARD)
-fan = make_fan(BEARINGS, pillars_cast)
+fan = make_fan_forward(BEAMS, pillars_cast)
 drawn_errors, readings = make_errors(BEAMS), make_readings(BEAMS)
 EXACT = (0.0,) * BEAMS  # errors before there are readings
 LEAST_DEPTH = 20.0  # of starts of vehicles that do not float; ten lengths of long ones [m]
@@ -235,11 +227,6 @@ def goal(own: Parameters, memory: Memory) -> Goal:
     return Goal(memory.goal_ned)
 
 
-def beams(own: Parameters, memory: Memory) -> Any:
-    """Return what the beams tell, for drawing."""
-    return beams_seen(fan_directions(BEARINGS), readings(memory.ranges, memory.errors, own.reach), own.reach)
-
-
 define_task(
     globals(),
     id="dq_marine/ObstacleAvoidance-v0",
@@ -247,6 +234,9 @@ define_task(
     draws=START_DRAWS + field_draws(ROWS, COLUMNS),
     sense_draws=BEAMS,
     scenery=lambda own, memory: pillars_seen(memory.pillars, own.depth, 2.0 * own.hull.half_length),
+    beams=lambda own, memory: beams_seen(
+        directions_forward(BEAMS), readings, memory.ranges, memory.errors, own.reach
+    ),
     collided=lambda own, memory: memory.metrics.clearance < 0.0,
     units={"goal_distance": "m", "clearance": "m", "impact_speed": "m/s"},
     levels={

@@ -137,21 +137,20 @@ def make_formulas(grounds: Grounds) -> dict[str, Any]:
         """Return where the vehicle is over the seabed and along the pipe, and what is seen of them."""
         controls, flight, place = memory.controls, own.flight, motion.position_ned
         ground = whole(flight, memory.ground)
-        parameter = nearer(controls, nearer(controls, memory.metrics.share_done * SPANS, place), place)
-        ahead = min(parameter + own.ahead / own.leg, float(SPANS))
-        here, soon = point_at(controls, parameter), point_at(controls, ahead)
+        along = nearer(controls, nearer(controls, memory.metrics.share_done * SPANS, place), place)
+        ahead = min(along + own.ahead / own.leg, float(SPANS))
+        here, soon = point_at(controls, along), point_at(controls, ahead)
         pipe = laid(ground, from_above(here.position_ned), from_above(here.slope_ned), own.radius)
         by, over = beside_pipe(pipe, motion, flight.keel), keel_over(ground, motion, flight.keel)
         off, clearance = by.height - flight.altitude, min(over.clearance, by.clearance)
         errors = (abs(by.starboard), abs(off), abs(by.askew))
-        tally = counted(memory.tally, parameter > ACQUIRED, errors, flight.period)
+        tally = counted(memory.tally, along > ACQUIRED, errors, flight.period)
         cross, high, askew = means(tally, flight.period)
         impact = select(clearance < 0.0, norm(motion.velocity.linear), 0.0)
-        ranges = fan(LaidPipe(ground, pipe), place, motion.attitude, flight.reach)
         seen = sight(motion, from_above(soon.position_ned), from_above(soon.slope_ned), own.ahead)
-        share = parameter / SPANS
-        metrics = Metrics(by.starboard, off, by.askew, cross, high, askew, clearance, impact, share)
-        return Memory(memory.ground, controls, View(ranges, seen), memory.errors, by.speed, tally, metrics)
+        metrics = Metrics(by.starboard, off, by.askew, cross, high, askew, clearance, impact, along / SPANS)
+        view = View(fan(LaidPipe(ground, pipe), place, motion.attitude, flight.reach), seen)
+        return Memory(memory.ground, controls, view, memory.errors, by.speed, tally, metrics)
 
     def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
         """Return a new seabed with a pipe, and what is seen of them."""
@@ -169,8 +168,7 @@ start, initial_memory, update_memory = formulas(Settings()).values()
 
 def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
     """Return the memory with new errors of the beams' readings and of the detector."""
-    flight = own.flight
-    errors = drawn_errors(flight.noise, flight.dropout, flight.altitude, uniforms)
+    errors = drawn_errors(own.flight.noise, own.flight.dropout, own.flight.altitude, uniforms)
     return Memory(memory.ground, memory.controls, memory.shown, errors, *memory[4:])
 
 
@@ -218,10 +216,9 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
 
 def succeeded(own: Parameters, now: Situation) -> Any:
     """Whether the end of the pipe is reached, near enough to it from the second leg on, without contact."""
-    metrics, most = now.metrics, own.tolerance
-    near = (metrics.mean_cross_track_error < most) & (metrics.mean_altitude_error < most)
-    straight, untouched = metrics.mean_course_error < ASKEW, metrics.clearance >= 0.0
-    return near & straight & untouched & (metrics.share_done >= 1.0)
+    last, most = now.metrics, own.tolerance
+    near = (last.mean_cross_track_error < most) & (last.mean_altitude_error < most)
+    return near & (last.mean_course_error < ASKEW) & (last.clearance >= 0.0) & (last.share_done >= 1.0)
 
 
 def terminated(own: Parameters, now: Situation) -> Any:
@@ -237,12 +234,6 @@ def scenery(own: Parameters, memory: Memory) -> Any:
     return pipe_seen(*ground_of(own.flight, memory.ground, WAVES), way, own.radius, 2.0 * own.flight.altitude)
 
 
-def beams(own: Parameters, memory: Memory) -> Any:
-    """Return what the sonar's beams tell, for drawing."""
-    told = readings(memory.shown.ranges, memory.errors.ranges, own.flight.reach)
-    return beams_seen(directions_across(BEAMS), told, own.flight.reach)
-
-
 define_task(
     globals(),
     id="dq_marine/PipelineInspection-v0",
@@ -250,6 +241,9 @@ define_task(
     draws=START_DRAWS + winding_draws(SPANS) + ground_draws(WAVES),
     sense_draws=BEAMS + 3,
     units={name: UNITS.get(name.split("_")[-2:][0], "m") for name in Metrics._fields[:-1]},
+    beams=lambda own, memory: beams_seen(
+        directions_across(BEAMS), readings, memory.shown.ranges, memory.errors.ranges, own.flight.reach
+    ),
     tolerances={"cross_track_error": LEAST, "altitude_error": LEAST},
     levels={"easy": {"slope": 0.15, "turn": 15.0, **QUIET}, "medium": {"current": 0.2}, "hard": DISTURBED},
     **OVER_GROUND,

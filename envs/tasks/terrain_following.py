@@ -223,8 +223,7 @@ def scenery(own: Parameters, memory: Memory) -> Any:
 
 def beams(own: Parameters, memory: Memory) -> Any:
     """Return what the beams tell, for drawing."""
-    reach = own.flight.reach
-    return beams_seen(directions_ahead(BEAMS), readings(memory.ranges, memory.errors, reach), reach)
+    return beams_seen(directions_ahead(BEAMS), readings, memory.ranges, memory.errors, own.flight.reach)
 
 
 def goal(own: Parameters, memory: Memory) -> Goal:

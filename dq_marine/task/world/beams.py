@@ -51,6 +51,11 @@ def fan_directions(
     return tuple(add_scaled(scale(math.cos(one), middle), math.sin(one), side) for one in bearings)
 
 
+def directions_forward(beams: int) -> tuple[Vector3, ...]:
+    """Return the directions of the beams of `make_fan_forward`, unit vectors in the body frame."""
+    return fan_directions(fan_bearings(beams, FORWARD))
+
+
 def directions_ahead(beams: int) -> tuple[Vector3, ...]:
     """Return the directions of the beams of `make_fan_ahead`, unit vectors in the body frame."""
     return fan_directions(ground_bearings(beams), BOW, DOWN)
@@ -78,6 +83,11 @@ def make_fan(
         return beams(world, position, rotate(attitude, middle), rotate(attitude, side), reach)
 
     return fan
+
+
+def make_fan_forward(beams: int, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
+    """Return the fan of `make_fan` that sees what is round the bow, from port to starboard within `FORWARD`."""
+    return make_fan(fan_bearings(beams, FORWARD), cast)
 
 
 def make_fan_ahead(beams: int, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
