@@ -19,7 +19,7 @@ from dq_marine.agents.settings import AutopilotSettings, AvoidanceSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
 from dq_marine.envs.core.suitability import cruising_speed
-from dq_marine.task.world.beams import FORWARD, fan_bearings
+from dq_marine.task.world.beams import fan_forward
 
 
 class AvoidanceController(Journey):
@@ -43,7 +43,7 @@ class AvoidanceController(Journey):
         self._horizon = min(own.look_ahead, inner.task_settings.reach) * size.length
         self._ways = Ways(own, 0.5 * size.width, size.length, self._pilot.turning_radius(self._speed))
         self._echoes = Echoes(
-            np.array(fan_bearings(beams, FORWARD)),
+            np.array(fan_forward(beams).bearings),
             inner.task_settings.reach * size.length,
             own.lasting * size.length / self._speed,
         )

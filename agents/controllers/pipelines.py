@@ -16,7 +16,7 @@ from dq_marine.agents.environments import marine
 from dq_marine.agents.settings import AutopilotSettings, GroundSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
-from dq_marine.task.world.beams import directions_across
+from dq_marine.task.world.beams import directions_of, fan_across
 
 PIPE_WIDTH = 2.0
 """Echoes that are nearer to a pipe's axis, seen from above, than so many radii, may be of the pipe."""
@@ -44,7 +44,7 @@ class PipelineController(GroundJourney):
         """Prepare for an environment's vehicle; None reads the presets `over_ground` and `autopilot`."""
         super().__init__(env, settings, autopilot)
         beams = len(self._read(marine(env).observation_bound)["sonar_readings"])
-        self._beams_body = directions_across(beams)
+        self._beams_body = directions_of(fan_across(beams))
         self._route = Route(0.5 * self._altitude, self._altitude)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:

@@ -15,7 +15,7 @@ from dq_marine.agents.environments import marine
 from dq_marine.agents.settings import AutopilotSettings, GroundSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
-from dq_marine.task.world.beams import directions_ahead
+from dq_marine.task.world.beams import directions_of, fan_ahead
 
 
 class TerrainController(GroundJourney):
@@ -40,7 +40,7 @@ class TerrainController(GroundJourney):
         """Prepare for an environment's vehicle; None reads the presets `over_ground` and `autopilot`."""
         super().__init__(env, settings, autopilot)
         beams = len(self._read(marine(env).observation_bound)["ground_ahead_readings"]) + 1
-        self._beams_body = directions_ahead(beams)
+        self._beams_body = directions_of(fan_ahead(beams))
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""

@@ -11,14 +11,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from dq_marine.agents.deployment.address import SCHEME
 from dq_marine.agents.deployment.model_card import CARD_FILE
 from dq_marine.agents.deployment.onnx_policy import ENDING, policy_bytes
 from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import optional_library
-
-SCHEME = "hf://"
-"""What the address of a policy on the hub begins with: hf://OWNER/NAME, or hf://OWNER/NAME@REVISION."""
 
 
 def share(folder: Path, repository: str, *, private: bool = False, message: str | None = None) -> str:

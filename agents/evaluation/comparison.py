@@ -27,7 +27,7 @@ from dq_marine.agents.evaluation.flight import (
 from dq_marine.agents.settings import EnvironmentSettings
 
 if TYPE_CHECKING:
-    from dq_marine.viewer.overlay import Flight
+    from dq_marine.viewer.shared_scene import Flight
 
 
 @dataclass(frozen=True)

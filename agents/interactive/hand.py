@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.algebra.quaternion import rotation_matrix
+from dq_marine.algebra.spatial import wrench_at
 from dq_marine.backend.packing import unpack
 from dq_marine.envs.core.marine_env import MarineEnv
-from dq_marine.envs.core.push import push, wrench_at
+from dq_marine.envs.core.push import push
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 
 Array = NDArray[np.float64]
@@ -78,6 +79,6 @@ def mass_felt(inertia: Inertia, point: Array) -> float:
     """Return the mass [kg] of a point of a body in the direction in which it gives way most easily."""
     gives_way = np.empty((3, 3))
     for axis, direction in enumerate(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))):
-        turning, moving = twist_from_momentum(inertia, wrench_at(point, direction))
+        turning, moving = twist_from_momentum(inertia, wrench_at(tuple(point.tolist()), direction))
         gives_way[:, axis] = np.array(moving) + np.cross(turning, point)
     return 1.0 / float(np.linalg.eigvalsh(gives_way)[-1])

@@ -25,6 +25,7 @@ from dq_marine.algebra.vector3 import (
     absolute,
     add,
     add_scaled,
+    cross,
     dot,
     multiply_elementwise,
     scale,
@@ -56,6 +57,11 @@ class Matrix6(NamedTuple):
     angular_linear: Matrix3
     linear_angular: Matrix3
     linear: Matrix3
+
+
+def wrench_at(point: Vector3, force: Vector3) -> Spatial:
+    """Return moment and force about the origin of a force that acts at a point [m]."""
+    return Spatial(cross(point, force), force)
 
 
 def from_fossen(components: Sequence[float]) -> Spatial:

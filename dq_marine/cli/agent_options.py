@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from dq_marine.agents.choice import common_environment
+from dq_marine.agents.deployment.address import SCHEME
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, scenario_settings
 from dq_marine.agents.keywords import with_changes
 from dq_marine.agents.policies import is_exported
@@ -20,9 +21,6 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import vehicle_names
 
 DEFAULT_ALGORITHM = "ppo"
-
-HUB = "hf://"
-"""What the address of a policy on the Hugging Face Hub begins with."""
 
 
 @dataclass(frozen=True)
@@ -86,10 +84,10 @@ def requested_policies(policies: Sequence[str]) -> list[Path]:
         InvalidInputError: an address is wrong, or the hub refuses.
         MissingDependencyError: the hub's client is needed, and is not installed.
     """
-    if any(one.startswith(HUB) for one in policies):
+    if any(one.startswith(SCHEME) for one in policies):
         from dq_marine.agents.deployment.hub import fetched  # here: few need it
 
-        return [fetched(one) if one.startswith(HUB) else Path(one) for one in policies]
+        return [fetched(one) if one.startswith(SCHEME) else Path(one) for one in policies]
     return [Path(one) for one in policies]
 
 

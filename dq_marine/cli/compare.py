@@ -10,14 +10,19 @@ import typer
 
 from dq_marine.cli.common import console, examples, shown_part
 from dq_marine.cli.options import (
+    SECONDS,
     Baseline,
     CurrentOption,
     EnvironmentPresetOption,
     LevelOption,
+    PoliciesOption,
+    RunsOption,
     ScenarioOption,
     SetOption,
+    StartSeedOption,
     TaskOption,
     VehicleOption,
+    baselines_option,
 )
 from dq_marine.errors import InvalidInputError
 
@@ -26,13 +31,11 @@ if TYPE_CHECKING:
     from dq_marine.agents.evaluation.comparison import Contender
     from dq_marine.agents.settings import EnvironmentSettings
 
-SECONDS = 30.0
-"""How long a flight is if nobody says so [s]."""
-
 EXAMPLES = examples(
     "dq-marine compare",
     "dq-marine compare --agent controller --agent zero --scenario StationKeeping/cross_current",
     "dq-marine compare --agent controller --run runs/ppo --seed 3 --html policy.html",
+    "dq-marine compare --agent controller --policy policy.onnx",
     "dq-marine compare --task TrajectoryTracking --agent controller --agent lqr --agent mpc",
     'dq-marine compare --with "order 2: order=2" --with "order 8: scheme=galerkin, order=8" --set substeps=1',
     'dq-marine compare --with "calm: current=0" --with "stream: current=0.3,0,0" --side-by-side',
@@ -43,16 +46,10 @@ EXAMPLES = examples(
 def compare(
     agent: Annotated[
         list[Baseline] | None,
-        typer.Option(
-            "--agent",
-            help="A baseline; may be repeated. lqr and mpc need the extra `mpc`.",
-            show_default="controller and zero; controller where settings or a run are compared",
-        ),
+        baselines_option("controller and zero; controller beside settings, a run or a policy"),
     ] = None,
-    run: Annotated[
-        list[Path] | None,
-        typer.Option("--run", help="Folder of a training run; may be repeated. Load only runs you trust."),
-    ] = None,
+    run: RunsOption = None,
+    policy: PoliciesOption = None,
     with_: Annotated[
         list[str] | None,
         typer.Option(
@@ -70,15 +67,7 @@ def compare(
             "--side-by-side", help="Show each flight in a scene of its own.", show_default="overlaid"
         ),
     ] = False,
-    seed: Annotated[
-        int | None,
-        typer.Option(
-            "--seed",
-            min=0,
-            help="Seed of the start and the current, the same for all.",
-            show_default="the scenario's, or the first whose start is at least half the start radius from the goal",
-        ),
-    ] = None,
+    seed: StartSeedOption = None,
     scenario: ScenarioOption = None,
     preset: EnvironmentPresetOption = None,
     task: TaskOption = None,
@@ -111,7 +100,7 @@ def compare(
     """
     if integrators:
         given = {
-            "--agent": agent, "--run": run, "--with": with_, "--seed": seed, "--scenario": scenario,
+            "--agent": agent, "--run": run, "--policy": policy, "--with": with_, "--seed": seed, "--scenario": scenario,
             "--preset": preset, "--task": task, "--vehicle": vehicle, "--level": level, "--current": current,
             "--set": set_, "--side-by-side": side_by_side or None,
         }  # fmt: skip
@@ -124,9 +113,10 @@ def compare(
         return
     from dq_marine.agents.evaluation.comparison import comparison_table, fly_contenders, save_comparison
     from dq_marine.agents.evaluation.flight import FlightPlan
-    from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment
+    from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment, requested_policies
     from dq_marine.cli.variants import read_variants
     from dq_marine.envs.scenarios.files import load_scenario
+    from dq_marine.viewer.shared_scene import check_number
 
     if step is not None:
         raise InvalidInputError(
@@ -134,12 +124,12 @@ def compare(
         )
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
     begun = None if scenario is None else load_scenario(scenario, task=task)
-    runs, variants = run or [], read_variants(with_ or [])
+    runs, variants = [*(run or []), *requested_policies(policy or [])], read_variants(with_ or [])
     environment = requested_environment(runs, options, preset=preset, scenario=begun)
     alone = [Baseline.CONTROLLER] if runs or variants else [Baseline.CONTROLLER, Baseline.ZERO]
     contenders = _contenders(agent or alone, runs, environment, variants)
     if not side_by_side:
-        _check_colors(len(contenders))
+        check_number(len(contenders))  # before the first flight, not after the last
     if begun is None:
         plan = FlightPlan(environment, SECONDS if seconds is None else seconds, seed)
     else:
@@ -181,9 +171,10 @@ def _contenders(
     from dq_marine.agents.choice import make_agents
     from dq_marine.agents.evaluation.comparison import Contender
     from dq_marine.agents.keywords import with_changes
+    from dq_marine.agents.policies import policy_name
 
     agents: list[tuple[str, list[str], list[Path]]] = [(str(name), [str(name)], []) for name in baselines]
-    agents += [(one.resolve().name, [], [one]) for one in runs]
+    agents += [(policy_name(one), [], [one]) for one in runs]
     settings = [(name, with_changes(environment, changes)) for name, changes in variants.items()]
     contenders: dict[str, Contender] = {}
     for (flier, chosen, trained), (variant, changed) in product(agents, settings or [("", environment)]):
@@ -197,14 +188,3 @@ def _contenders(
 
         contenders[name] = Contender(changed, make)
     return contenders
-
-
-def _check_colors(flights: int) -> None:
-    """Refuse before the first flight what could not be overlaid after the last."""
-    from dq_marine.viewer.models.paint import FLIGHT_COLORS
-
-    if flights > len(FLIGHT_COLORS):
-        raise InvalidInputError(
-            f"agents and settings make {flights} flights, and one scene has colours for {len(FLIGHT_COLORS)}; give "
-            "fewer, or --side-by-side"
-        )

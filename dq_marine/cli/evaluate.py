@@ -16,9 +16,11 @@ from dq_marine.cli.options import (
     LevelOption,
     PoliciesOption,
     PrintPresetOption,
+    RunsOption,
     SetOption,
     TaskOption,
     VehicleOption,
+    baselines_option,
     print_preset,
 )
 
@@ -49,16 +51,9 @@ class Format(StrEnum):
 def evaluate(
     agent: Annotated[
         list[Baseline] | None,
-        typer.Option(
-            "--agent",
-            help="A baseline; may be repeated. lqr and mpc need the extra `mpc`.",
-            show_default="controller, zero and random, if neither --run nor --policy is given",
-        ),
+        baselines_option("controller, zero and random, if neither --run nor --policy is given"),
     ] = None,
-    run: Annotated[
-        list[Path] | None,
-        typer.Option("--run", help="Folder of a training run; may be repeated. Load only runs you trust."),
-    ] = None,
+    run: RunsOption = None,
     policy: PoliciesOption = None,
     episodes: Annotated[
         int | None,

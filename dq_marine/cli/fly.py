@@ -12,6 +12,7 @@ import typer
 
 from dq_marine.cli.common import console, examples, shown_part
 from dq_marine.cli.options import (
+    SECONDS,
     Baseline,
     CurrentOption,
     EnvironmentPresetOption,
@@ -20,6 +21,7 @@ from dq_marine.cli.options import (
     PrintPresetOption,
     ScenarioOption,
     SetOption,
+    StartSeedOption,
     TaskOption,
     VehicleOption,
     print_preset,
@@ -31,8 +33,8 @@ if TYPE_CHECKING:
     from dq_marine.agents.evaluation.flight import FlightPlan, Outputs
     from dq_marine.agents.interactive.flights import MakeAgents
 
-SECONDS, SECONDS_WITH_PANEL = 30.0, 3600.0
-"""How long a flight is if nobody says so [s]; with a panel the person ends it."""
+SECONDS_WITH_PANEL = 3600.0
+"""How long a flight with a panel is if nobody says so [s]: the person ends it before."""
 
 EXAMPLES = examples(
     "dq-marine fly --teleop --current 0.3",
@@ -112,15 +114,7 @@ def fly(
             help="Take the helm yourself, by keyboard, gamepad or mouse in the browser: as --panel.",
         ),
     ] = False,
-    seed: Annotated[
-        int | None,
-        typer.Option(
-            "--seed",
-            min=0,
-            help="Seed of the start and the current.",
-            show_default="the scenario's, or the first whose start is at least half the start radius from the goal",
-        ),
-    ] = None,
+    seed: StartSeedOption = None,
     scenario: ScenarioOption = None,
     preset: EnvironmentPresetOption = None,
     task: TaskOption = None,

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from dq_marine.cli.common import console, examples
-from dq_marine.cli.options import Baseline
+from dq_marine.cli.options import POLICY, Baseline, baselines_option
 from dq_marine.errors import InvalidInputError
 
 EXAMPLES = examples(
@@ -37,21 +37,13 @@ def leaderboard(
         list[str] | None,
         typer.Option("--level", help="Of difficulty; may be repeated.", show_default="medium"),
     ] = None,
-    agent: Annotated[
-        list[Baseline] | None,
-        typer.Option(
-            "--agent",
-            help="A baseline; may be repeated.",
-            show_default="controller, unless --policy is given",
-        ),
-    ] = None,
+    agent: Annotated[list[Baseline] | None, baselines_option("controller, unless --policy is given")] = None,
     policy: Annotated[
         list[str] | None,
         typer.Option(
             "--policy",
-            help="Exported policy (.onnx), hf://OWNER/NAME@REVISION on the Hugging Face Hub, or folder of a training "
-            "run: it flies what it fits, its task, with its vehicle and sensors; may be repeated. Load only runs you "
-            "trust.",
+            help=f"{POLICY}, or folder of a training run: it flies what it fits, its task, with its vehicle and "
+            "sensors; may be repeated. Load only runs you trust.",
         ),
     ] = None,
     scenarios: Annotated[

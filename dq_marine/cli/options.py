@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
     from dq_marine.agents.settings import Settings
+
+
+SECONDS = 30.0
+"""How long a flight is if nobody says so [s]."""
 
 
 class Algorithm(StrEnum):
@@ -28,6 +33,21 @@ class Baseline(StrEnum):
     MPC = "mpc"
 
 
+def baselines_option(default: str) -> Any:
+    """Return the option `--agent` of commands that several baselines fly for.
+
+    Args:
+        default: who flies if nobody is named, for `--help`.
+    """
+    return typer.Option(
+        "--agent", help="A baseline; may be repeated. lqr and mpc need the extra `mpc`.", show_default=default
+    )
+
+
+RunsOption = Annotated[
+    list[Path] | None,
+    typer.Option("--run", help="Folder of a training run; may be repeated. Load only runs you trust."),
+]
 TaskOption = Annotated[
     str | None,
     typer.Option(
@@ -70,18 +90,16 @@ SetOption = Annotated[
         "null takes the default. A wrong key is answered with the list of keys.",
     ),
 ]
-PolicyOption = Annotated[
-    str | None,
+POLICY = "Exported policy (.onnx), or hf://OWNER/NAME@REVISION on the Hugging Face Hub"
+PolicyOption = Annotated[str | None, typer.Option("--policy", help=f"{POLICY}: it flies, without torch.")]
+PoliciesOption = Annotated[list[str] | None, typer.Option("--policy", help=f"{POLICY}; may be repeated.")]
+StartSeedOption = Annotated[
+    int | None,
     typer.Option(
-        "--policy",
-        help="Exported policy (.onnx), or hf://OWNER/NAME@REVISION on the Hugging Face Hub: it flies, without torch.",
-    ),
-]
-PoliciesOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--policy",
-        help="Exported policy (.onnx), or hf://OWNER/NAME@REVISION on the Hugging Face Hub; may be repeated.",
+        "--seed",
+        min=0,
+        help="Seed of the start and the current.",
+        show_default="the scenario's, or the first whose start is at least half the start radius from the goal",
     ),
 ]
 PrintPresetOption = Annotated[

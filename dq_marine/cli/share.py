@@ -34,7 +34,7 @@ def share(
 
     The hub's client finds your token: `hf auth login` stores one. Only the policy, its card and TorchScript go up.
     """
-    from dq_marine.agents.deployment.hub import SCHEME
+    from dq_marine.agents.deployment.address import SCHEME
     from dq_marine.agents.deployment.hub import share as upload
 
     address = upload(folder, repository, private=private, message=message)

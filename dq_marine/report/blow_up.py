@@ -24,7 +24,8 @@ from dq_marine.report.stability_map import BOUNDED
 from dq_marine.report.trial import BLEW_UP, DONE, overflow_allowed, trial
 from dq_marine.simulation.one_body import OneBody
 from dq_marine.vehicles import load_vehicle
-from dq_marine.viewer.overlay import Flight, save_overlay
+from dq_marine.viewer.overlay import save_overlay
+from dq_marine.viewer.shared_scene import Flight
 from dq_marine.viewer.snapshot import Snapshot
 
 VEHICLE, CASE = "bluerov2_heavy", "damped_bluerov2"
@@ -40,7 +41,7 @@ DEPTH = 5.0
 """Of the start [m]."""
 
 FARTHEST = 1e6
-"""From the start, a runaway is still drawn [m]."""
+"""Largest coordinate at which a runaway is still drawn [m]."""
 
 FLOOR = 10.0
 """Depth of the sea floor [m]; a runaway does not deepen it."""

@@ -15,6 +15,7 @@ from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
 from dq_marine.task.things import Beam, Block, Column, Cone, Line, Relief, ShipHull, Thing, TorpedoHull, Tube
 from dq_marine.task.traffic import OtherVessel
+from dq_marine.task.world.beams import Fan, directions_of
 from dq_marine.task.world.pillars import Pillar
 
 BEAM = 0.16
@@ -141,13 +142,11 @@ def pipe_seen(
     return [*ground_seen(depth, ground, places, margin), Thing(Tube(axis, radius))]
 
 
-def beams_seen(
-    directions_body: Sequence[Vector3], readings: Callable[..., Any], ranges: Any, errors: Any, reach: float
-) -> list[Beam]:
+def beams_seen(fan: Fan, readings: Callable[..., Any], ranges: Any, errors: Any, reach: float) -> list[Beam]:
     """Return beams from the vehicle's origin, by what they tell the agent: the whole reach where no echo came back.
 
     Args:
-        directions_body: of the beams, unit vectors.
+        fan: where they point.
         readings: of `make_readings`.
         ranges: of the beams [m].
         errors: of their readings.
@@ -155,7 +154,7 @@ def beams_seen(
     """
     return [
         Beam(direction, reading * reach, reach)
-        for direction, reading in zip(directions_body, readings(ranges, errors, reach), strict=True)
+        for direction, reading in zip(directions_of(fan), readings(ranges, errors, reach), strict=True)
     ]
 
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.live import LiveViewer
 from dq_marine.viewer.offscreen import OffscreenViewer
-from dq_marine.viewer.overlay import Flight, make_overlay, save_overlay
+from dq_marine.viewer.overlay import make_overlay, save_overlay
 from dq_marine.viewer.pacing import RealTimePacer
 from dq_marine.viewer.replay import Replay, make_replay, save_replay
+from dq_marine.viewer.shared_scene import Flight
 from dq_marine.viewer.snapshot import Shape, Snapshot, Thruster
 from dq_marine.viewer.transport.browser import find_chromium
 from dq_marine.viewer.video import save_video

@@ -8,8 +8,7 @@ no arrows.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +21,7 @@ from dq_marine.viewer.models.paint import FLIGHT_COLORS
 from dq_marine.viewer.models.vehicle_model import VEHICLE, draw_goal, draw_vehicle
 from dq_marine.viewer.placement import Placement, quaternion_wxyz, vector3
 from dq_marine.viewer.replay import Replay, checked_target, checked_times, filled, script_json, staged
-from dq_marine.viewer.shared_scene import SAME, Recorded, check_one_scene, same_goal, stage_of
+from dq_marine.viewer.shared_scene import SAME, Flight, check_number, check_one_scene, same_goal, stage_of
 from dq_marine.viewer.snapshot import FloatArray, Snapshot
 from dq_marine.viewer.transport.messages import Message, set_property, set_transform
 from dq_marine.viewer.transport.pages import OVERLAY_PAGE
@@ -40,23 +39,6 @@ LOGARITHMIC = 1e3
 
 LONGEST_AXIS = 1e9
 """Largest over smallest value of a logarithmic axis; what is below is drawn at its end."""
-
-
-@dataclass(frozen=True, eq=False)
-class Flight(Recorded):
-    """A recorded flight among others.
-
-    Attributes:
-        name: in the legend; no two flights have the same.
-        snapshots: one or more, in the order of increasing time.
-        shape: of the vehicle.
-        caption: what else is to be known, such as why it ended; below the name.
-        plots: numbers against time, by what they are, such as "speed [m/s]": one for each snapshot. What is not finite
-            is left out of the plot.
-    """
-
-    caption: str = ""
-    plots: Mapping[str, ArrayLike] = field(default_factory=dict)
 
 
 def save_overlay(
@@ -127,13 +109,7 @@ def make_overlay(
 
 
 def _check(flights: Sequence[Flight]) -> None:
-    if not flights:
-        raise InvalidInputError("there are 0 flights; give at least 1: record some first")
-    if len(flights) > len(FLIGHT_COLORS):
-        raise InvalidInputError(
-            f"there are {len(flights)} flights, and colours for {len(FLIGHT_COLORS)}; give fewer, or show them side by "
-            "side (dq_marine.viewer.side_by_side)"
-        )
+    check_number(len(flights))
     names = [flight.name for flight in flights]
     for flight in flights:
         if not flight.name.strip() or names.count(flight.name) > 1:

@@ -1,14 +1,16 @@
-"""What flights that are shown in one scene have in common: the sea, the things around, and perhaps goal and current."""
+"""Flights that are shown in one scene, and what they share: the sea, the things around, perhaps goal and current."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.things import Thing
+from dq_marine.viewer.models.paint import FLIGHT_COLORS
 from dq_marine.viewer.snapshot import FloatArray, Shape, Snapshot
 
 REMEDY = "show them side by side (dq_marine.viewer.side_by_side, or dq-marine compare --side-by-side)"
@@ -18,18 +20,23 @@ SAME = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Recorded:
-    """A recorded motion and what it is called.
+class Flight:
+    """A recorded flight among others.
 
     Attributes:
-        name: of the flight.
+        name: in the legend; no two flights have the same.
         snapshots: one or more, in the order of increasing time.
         shape: of the vehicle.
+        caption: what else is to be known, such as why it ended; below the name.
+        plots: numbers against time, by what they are, such as "speed [m/s]": one for each snapshot. What is not finite
+            is left out of the plot.
     """
 
     name: str
     snapshots: Sequence[Snapshot]
     shape: Shape
+    caption: str = ""
+    plots: Mapping[str, ArrayLike] = field(default_factory=dict)
 
     @property
     def end(self) -> float:
@@ -37,7 +44,21 @@ class Recorded:
         return self.snapshots[-1].time
 
 
-def check_one_scene(flights: Sequence[Recorded]) -> None:
+def check_number(flights: int) -> None:
+    """Check that there are flights to show, and no more than can be told apart in one scene.
+
+    Raises:
+        InvalidInputError: there are none or too many.
+    """
+    if not flights:
+        raise InvalidInputError("there are 0 flights; give at least 1: record some first")
+    if flights > len(FLIGHT_COLORS):
+        raise InvalidInputError(
+            f"there are {flights} flights, and colours for {len(FLIGHT_COLORS)}; give fewer, or {REMEDY}"
+        )
+
+
+def check_one_scene(flights: Sequence[Flight]) -> None:
     """Check that flights can be shown in one scene.
 
     Raises:
@@ -66,7 +87,7 @@ def check_one_scene(flights: Sequence[Recorded]) -> None:
                 )
 
 
-def same_goal(one: Recorded, other: Recorded) -> bool:
+def same_goal(one: Flight, other: Flight) -> bool:
     """Return whether two flights have the same goal, whenever both are seen."""
     return all(
         _same(mine.goal_position_ned, theirs.goal_position_ned)
@@ -75,7 +96,7 @@ def same_goal(one: Recorded, other: Recorded) -> bool:
     )
 
 
-def stage_of(flights: Sequence[Recorded]) -> list[Snapshot]:
+def stage_of(flights: Sequence[Flight]) -> list[Snapshot]:
     """Return the snapshots by which the scene is drawn: the first flight's, until the longest flight ends.
 
     After its end the first vehicle stands still, while the things around and a goal that it shares go on. Thrust and
@@ -114,7 +135,7 @@ def stage_of(flights: Sequence[Recorded]) -> list[Snapshot]:
     ]
 
 
-def at_common_times(one: Recorded, other: Recorded) -> Iterator[tuple[Snapshot, Snapshot]]:
+def at_common_times(one: Flight, other: Flight) -> Iterator[tuple[Snapshot, Snapshot]]:
     """Yield pairs of snapshots of two flights that were taken at the same time."""
     theirs = {round(snapshot.time / SAME): snapshot for snapshot in other.snapshots}
     for mine in one.snapshots:

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.algebra.quaternion import rotate_inverse
-from dq_marine.algebra.spatial import Spatial, spatial_add_scaled
-from dq_marine.algebra.vector3 import cross
+from dq_marine.algebra.spatial import spatial_add_scaled, wrench_at
 from dq_marine.backend.packing import pack
 from dq_marine.checks import finite_array, length_of
 from dq_marine.errors import InvalidInputError
@@ -48,16 +47,11 @@ def push(env: MarineEnv, point_body: Sequence[float], force_ned: Sequence[float]
     force = _within("force_ned", force_ned, LARGEST_FORCE, "N")
     episode = env.episode
     body = episode.body
-    wrench = wrench_at(point, rotate_inverse(body.pose.real, tuple(force.tolist())))
+    force_body = rotate_inverse(body.pose.real, tuple(force.tolist()))
+    wrench = wrench_at(tuple(point.tolist()), force_body)
     kicked = spatial_add_scaled(body.momentum, env.control_period, wrench)
     episode.state[: BODY_NUMBERS - 1] = pack(body._replace(momentum=kicked))
     env.annotate(PUSHED)
-
-
-def wrench_at(point: NDArray[np.float64], force: tuple[float, float, float]) -> Spatial:
-    """Return moment and force about the origin of a force that acts at a point."""
-    x, y, z = point.tolist()
-    return Spatial(cross((x, y, z), force), force)
 
 
 def _within(name: str, values: Sequence[float], most: float, unit: str) -> NDArray[np.float64]:

@@ -11,8 +11,8 @@ from dq_marine.envs.core.composed_task import ComposedTask
 from dq_marine.envs.core.view import EpisodeView
 
 if TYPE_CHECKING:
-    from dq_marine.viewer.overlay import Flight
     from dq_marine.viewer.replay import Replay
+    from dq_marine.viewer.shared_scene import Flight
 
 
 class ShownTask(ComposedTask):

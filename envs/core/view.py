@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from dq_marine.envs.core.marine_env import MarineEnv
     from dq_marine.viewer.live import LiveViewer
     from dq_marine.viewer.offscreen import OffscreenViewer
-    from dq_marine.viewer.overlay import Flight
     from dq_marine.viewer.playback import Playback
     from dq_marine.viewer.replay import Replay
+    from dq_marine.viewer.shared_scene import Flight
 
 
 AHEAD = (1.0, 0.0, 0.0)
@@ -153,7 +153,7 @@ class EpisodeView:
 
     def flight(self, name: str) -> Flight:
         """Return the recorded episode as one flight among others."""
-        from dq_marine.viewer.overlay import Flight
+        from dq_marine.viewer.shared_scene import Flight
 
         return Flight(name, tuple(self._recorded("recorded_flight")), self._shape)
 

@@ -18,7 +18,7 @@ from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import beams_seen, pillars_seen
 from dq_marine.task.starts import under_way
-from dq_marine.task.world.beams import directions_forward, make_errors, make_fan_forward, make_readings
+from dq_marine.task.world.beams import fan_forward, make_errors, make_fan, make_readings
 from dq_marine.task.world.pillars import (
     Hull,
     field_draws,
@@ -32,7 +32,7 @@ from dq_marine.task.world.pillars import (
 ROWS, COLUMNS, BEAMS = 4, 3, 24  # of the field; and how many beams see what is ahead
 PILLARS = ROWS * COLUMNS
 drawn_field, drifted, nearest = make_field(ROWS, COLUMNS), make_drifted(PILLARS), make_nearest(PILLARS)
-fan = make_fan_forward(BEAMS, pillars_cast)
+fan = make_fan(fan_forward(BEAMS), pillars_cast)
 drawn_errors, readings = make_errors(BEAMS), make_readings(BEAMS)
 EXACT = (0.0,) * BEAMS  # errors before there are readings
 LEAST_DEPTH = 20.0  # of starts of vehicles that do not float; ten lengths of long ones [m]
@@ -235,7 +235,7 @@ define_task(
     sense_draws=BEAMS,
     scenery=lambda own, memory: pillars_seen(memory.pillars, own.depth, 2.0 * own.hull.half_length),
     beams=lambda own, memory: beams_seen(
-        directions_forward(BEAMS), readings, memory.ranges, memory.errors, own.reach
+        fan_forward(BEAMS), readings, memory.ranges, memory.errors, own.reach
     ),
     collided=lambda own, memory: memory.metrics.clearance < 0.0,
     units={"goal_distance": "m", "clearance": "m", "impact_speed": "m/s"},

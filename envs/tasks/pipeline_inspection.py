@@ -25,7 +25,7 @@ from dq_marine.task.splines import make_spline, make_winding, winding_draws
 from dq_marine.task.starts import under_way
 from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
 from dq_marine.task.world import pipes
-from dq_marine.task.world.beams import NO_ECHO, directions_across, make_fan_across, make_readings
+from dq_marine.task.world.beams import NO_ECHO, fan_across, make_fan, make_readings
 from dq_marine.task.world.keel import make_keel_over
 from dq_marine.task.world.pipes import LaidPipe, Sight, View, beside_pipe, detected, sight
 
@@ -117,7 +117,7 @@ def make_formulas(grounds: Grounds) -> dict[str, Any]:
     """Return the formulas that are about a kind of ground, by their names."""
     depth_at, whole, drawn = grounds.depth, grounds.whole, grounds.drawn
     keel_over, (laid, cast_below) = make_keel_over(depth_at), pipes.make_pipe(grounds.along, grounds.cast)
-    fan = make_fan_across(BEAMS, cast_below)
+    fan = make_fan(fan_across(BEAMS), cast_below)
 
     def drawn_ground(own: Parameters, uniforms: tuple[float, ...]) -> Any:
         course, index = math.tau * uniforms[START_DRAWS], START_DRAWS + winding_draws(SPANS)
@@ -242,7 +242,7 @@ define_task(
     sense_draws=BEAMS + 3,
     units={name: UNITS.get(name.split("_")[-2:][0], "m") for name in Metrics._fields[:-1]},
     beams=lambda own, memory: beams_seen(
-        directions_across(BEAMS), readings, memory.shown.ranges, memory.errors.ranges, own.flight.reach
+        fan_across(BEAMS), readings, memory.shown.ranges, memory.errors.ranges, own.flight.reach
     ),
     tolerances={"cross_track_error": LEAST, "altitude_error": LEAST},
     levels={"easy": {"slope": 0.15, "turn": 15.0, **QUIET}, "medium": {"current": 0.2}, "hard": DISTURBED},

@@ -24,7 +24,7 @@ from dq_marine.task.scenery import beams_seen, ground_seen
 from dq_marine.task.starts import under_way
 from dq_marine.task.tally import NOTHING_YET, Tally, counted, means
 from dq_marine.task.tracks import on_track
-from dq_marine.task.world.beams import directions_ahead, make_errors, make_fan_ahead, make_readings
+from dq_marine.task.world.beams import fan_ahead, make_errors, make_fan, make_readings
 from dq_marine.task.world.keel import make_keel_over
 
 WAVES, BEAMS = 4, 6  # of the seabed; and beams, the last of which is the altimeter
@@ -105,7 +105,7 @@ def course_of(uniforms: tuple[float, ...]) -> Level:
 def make_formulas(grounds: Grounds) -> dict[str, Any]:
     """Return the formulas that are about a kind of ground, by their names."""
     depth_at, whole, drawn = grounds.depth, grounds.whole, grounds.drawn
-    keel_over, fan = make_keel_over(depth_at), make_fan_ahead(BEAMS, grounds.cast)
+    keel_over, fan = make_keel_over(depth_at), make_fan(fan_ahead(BEAMS), grounds.cast)
 
     def drawn_ground(own: Parameters, uniforms: tuple[float, ...]) -> Any:
         return drawn(own.flight, math.tau * uniforms[0], own.track, uniforms, START_DRAWS)
@@ -223,7 +223,7 @@ def scenery(own: Parameters, memory: Memory) -> Any:
 
 def beams(own: Parameters, memory: Memory) -> Any:
     """Return what the beams tell, for drawing."""
-    return beams_seen(directions_ahead(BEAMS), readings, memory.ranges, memory.errors, own.flight.reach)
+    return beams_seen(fan_ahead(BEAMS), readings, memory.ranges, memory.errors, own.flight.reach)
 
 
 def goal(own: Parameters, memory: Memory) -> Goal:

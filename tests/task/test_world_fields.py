@@ -14,12 +14,13 @@ from dq_marine.integrator.body import Motion
 from dq_marine.task.world.beams import (
     FORWARD,
     SWATH,
+    fan_across,
+    fan_ahead,
     fan_bearings,
+    fan_forward,
     ground_bearings,
     make_errors,
     make_fan,
-    make_fan_across,
-    make_fan_ahead,
     make_readings,
 )
 from dq_marine.task.world.keel import Keel, make_keel_over
@@ -40,8 +41,8 @@ from dq_marine.task.world.seabed import WAVE_DRAWS, make_seabed
 ROWS, COLUMNS, BEAMS, SPACING, REACH = 3, 2, 16, 6.0, 20.0
 COUNT = ROWS * COLUMNS
 FIELD = make_field(ROWS, COLUMNS)
-BEARINGS = fan_bearings(BEAMS, FORWARD)
-FAN = make_fan(BEARINGS, pillars_cast)
+BEARINGS = fan_forward(BEAMS).bearings
+FAN = make_fan(fan_forward(BEAMS), pillars_cast)
 HULL = Hull(2.0, 0.5)
 WAVES, STEEPEST = 4, 0.3
 SEABED = make_seabed(WAVES)
@@ -222,16 +223,16 @@ def test_growth_along_a_course_is_that_of_the_depth(seed, north, east, course):
     assert growth == pytest.approx((ahead[0] - astern[0]) / (2.0 * step), abs=1e-6)
 
 
-@pytest.mark.parametrize(("make", "middle", "last"), [(make_fan_ahead, 6, 6), (make_fan_across, 3, None)])
-def test_fans_that_see_the_ground_have_an_altimeter_in_the_plane_they_say(make, middle, last):
+@pytest.mark.parametrize(("fan", "middle", "last"), [(fan_ahead(7), 6, 6), (fan_across(7), 3, None)])
+def test_fans_that_see_the_ground_have_an_altimeter_in_the_plane_they_say(fan, middle, last):
     """Over level ground a beam reads the height over the sine of its angle below the horizon."""
     level = SEABED.drawn(30.0, 0.0, 40.0, uniforms(1, WAVES * WAVE_DRAWS), 0)
-    ranges = make(7, SEABED.cast)(level, (3.0, 4.0, 20.0), quaternion_from_euler(0.0, 0.0, 1.2), 1e3)
-    bearings = ground_bearings(7) if make is make_fan_ahead else fan_bearings(7, SWATH)
-    sines = [math.sin(b) if make is make_fan_ahead else math.cos(b) for b in bearings]
+    ranges = make_fan(fan, SEABED.cast)(level, (3.0, 4.0, 20.0), quaternion_from_euler(0.0, 0.0, 1.2), 1e3)
+    bearings = fan_bearings(7, SWATH) if last is None else ground_bearings(7)
+    sines = [math.cos(b) if last is None else math.sin(b) for b in bearings]
     assert ranges == pytest.approx([10.0 / sine for sine in sines])
     assert ranges[middle] == pytest.approx(10.0)
-    pitched = make(7, SEABED.cast)(level, (3.0, 4.0, 20.0), quaternion_from_euler(0.0, 0.2, 1.2), 1e3)
+    pitched = make_fan(fan, SEABED.cast)(level, (3.0, 4.0, 20.0), quaternion_from_euler(0.0, 0.2, 1.2), 1e3)
     assert pitched[middle] == pytest.approx(10.0 / math.cos(0.2))
     if last is None:  # the fan across the way pitches as a whole
         assert pitched == pytest.approx([one / math.cos(0.2) for one in ranges])

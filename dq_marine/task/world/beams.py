@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from dq_marine.algebra.normal import normal_pair
 from dq_marine.algebra.quaternion import Quaternion, rotate
@@ -44,60 +44,55 @@ def ground_bearings(beams: int) -> tuple[float, ...]:
     return tuple(HIGHEST_BEAM + step * i for i in range(beams))
 
 
-def fan_directions(
-    bearings: tuple[float, ...], middle: Vector3 = BOW, side: Vector3 = STARBOARD
-) -> tuple[Vector3, ...]:
-    """Return the directions of the beams of `make_fan`, unit vectors in the body frame."""
-    return tuple(add_scaled(scale(math.cos(one), middle), math.sin(one), side) for one in bearings)
+class Fan(NamedTuple):
+    """Where beams in a plane of the vehicle point.
 
-
-def directions_forward(beams: int) -> tuple[Vector3, ...]:
-    """Return the directions of the beams of `make_fan_forward`, unit vectors in the body frame."""
-    return fan_directions(fan_bearings(beams, FORWARD))
-
-
-def directions_ahead(beams: int) -> tuple[Vector3, ...]:
-    """Return the directions of the beams of `make_fan_ahead`, unit vectors in the body frame."""
-    return fan_directions(ground_bearings(beams), BOW, DOWN)
-
-
-def directions_across(beams: int) -> tuple[Vector3, ...]:
-    """Return the directions of the beams of `make_fan_across`, unit vectors in the body frame."""
-    return fan_directions(fan_bearings(beams, SWATH), DOWN, STARBOARD)
-
-
-def make_fan(
-    bearings: tuple[float, ...], cast: Cast, middle: Vector3 = BOW, side: Vector3 = STARBOARD
-) -> Callable[[Any, Vector3, Quaternion, float], Any]:
-    """Return (world, position, attitude, reach) -> ranges of beams in a plane of the vehicle.
-
-    Args:
+    Attributes:
         bearings: of the beams, from `middle` towards `side` [rad].
-        cast: what a beam meets.
         middle: unit vector in the body frame that a bearing of 0 points along.
         side: unit vector in the body frame, square to it, that a bearing of pi/2 points along.
     """
-    beams = _make_beams(bearings, cast)
 
-    def fan(world: Any, position: Vector3, attitude: Quaternion, reach: float) -> Any:
+    bearings: tuple[float, ...]
+    middle: Vector3
+    side: Vector3
+
+
+def fan_forward(beams: int) -> Fan:
+    """Return the fan that sees what is round the bow, from port to starboard within `FORWARD`."""
+    return Fan(fan_bearings(beams, FORWARD), BOW, STARBOARD)
+
+
+def fan_ahead(beams: int) -> Fan:
+    """Return the fan that sees the ground ahead and, by its last beam, straight down."""
+    return Fan(ground_bearings(beams), BOW, DOWN)
+
+
+def fan_across(beams: int) -> Fan:
+    """Return the fan that sees the ground across the way, from port to starboard within `SWATH`."""
+    return Fan(fan_bearings(beams, SWATH), DOWN, STARBOARD)
+
+
+def directions_of(fan: Fan) -> tuple[Vector3, ...]:
+    """Return the directions of a fan's beams, unit vectors in the body frame."""
+    return tuple(
+        add_scaled(scale(math.cos(one), fan.middle), math.sin(one), fan.side) for one in fan.bearings
+    )
+
+
+def make_fan(fan: Fan, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
+    """Return (world, position, attitude, reach) -> ranges of a fan's beams.
+
+    Args:
+        fan: where they point.
+        cast: what a beam meets.
+    """
+    beams, middle, side = _make_beams(fan.bearings, cast), fan.middle, fan.side
+
+    def ranges(world: Any, position: Vector3, attitude: Quaternion, reach: float) -> Any:
         return beams(world, position, rotate(attitude, middle), rotate(attitude, side), reach)
 
-    return fan
-
-
-def make_fan_forward(beams: int, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
-    """Return the fan of `make_fan` that sees what is round the bow, from port to starboard within `FORWARD`."""
-    return make_fan(fan_bearings(beams, FORWARD), cast)
-
-
-def make_fan_ahead(beams: int, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
-    """Return the fan of `make_fan` that sees the ground ahead and, by its last beam, straight down."""
-    return make_fan(ground_bearings(beams), cast, BOW, DOWN)
-
-
-def make_fan_across(beams: int, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float], Any]:
-    """Return the fan of `make_fan` that sees the ground across the way, from port to starboard within `SWATH`."""
-    return make_fan(fan_bearings(beams, SWATH), cast, DOWN, STARBOARD)
+    return ranges
 
 
 def _make_beams(bearings: tuple[float, ...], cast: Cast) -> Callable[..., Any]:

@@ -42,11 +42,12 @@ def test_an_episode_is_that_of_the_run(algorithm: str, request: pytest.FixtureRe
     assert ours.total_reward == pytest.approx(theirs.total_reward, abs=1e-4)
 
 
-@pytest.mark.parametrize("command", ["fly", "evaluate", "leaderboard"])
+@pytest.mark.parametrize("command", ["fly", "evaluate", "compare", "leaderboard"])
 def test_flying_imports_neither_torch_nor_stable_baselines3(command: str, ppo: Any, tmp_path: Path) -> None:
     arguments = {
         "fly": ["fly", "--seconds", "1", "--trajectory", str(tmp_path / "flight.csv")],
         "evaluate": ["evaluate", "--episodes", "1"],
+        "compare": ["compare", "--seconds", "1", "--html", str(tmp_path / "page.html")],
         "leaderboard": [
             *(
                 "leaderboard",
@@ -80,7 +81,7 @@ def test_flying_imports_neither_torch_nor_stable_baselines3(command: str, ppo: A
     assert child.stdout.splitlines()[-1] == "False True"
     if command == "fly":
         assert len((tmp_path / "flight.csv").read_text().splitlines()) == 12
-    elif command == "evaluate":
+    elif command in ("evaluate", "compare"):
         assert "policy" in child.stdout
     else:
         assert "policy" in (tmp_path / "page.md").read_text()

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.selection import select
-from dq_marine.algebra.spatial import Spatial, spatial_dot, spatial_scale
-from dq_marine.algebra.vector3 import Vector3, cross
+from dq_marine.algebra.spatial import Spatial, spatial_dot, spatial_scale, wrench_at
+from dq_marine.algebra.vector3 import Vector3
 
 
 class EffectKind(NamedTuple):
@@ -93,7 +93,7 @@ def azimuth_thruster_wrench(thruster: AzimuthThruster, values: Any, twist: Spati
     """Return the wrench at a shaft speed values[0] and an angle values[1][0] from forward towards starboard [rad]."""
     thrust, angle = thrust_of(thruster.propeller, values[0]), values[1][0]
     force = (thrust * math.cos(angle), thrust * math.sin(angle), 0.0)
-    return Spatial(cross(thruster.position, force), force)
+    return wrench_at(thruster.position, force)
 
 
 def fin_wrench(fin: Fin, values: Any, twist: Spatial) -> Spatial:
