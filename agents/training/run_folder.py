@@ -142,7 +142,7 @@ class RunFolder:
         """
         if not self.holds_run:
             raise InvalidInputError(
-                f"{self.path} holds no run (no run.json); check the path given with --run"
+                f"{self.path} holds no run (no run.json); give the folder that `dq-marine train` wrote"
             )
         source = str(self._plan_file)
         try:

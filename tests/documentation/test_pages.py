@@ -16,6 +16,7 @@ import typer
 from support.site_pages import DOCS, PAGES, ROOT, WITH_CODE, Page
 from support.sweeps import sweep
 
+from dq_marine import viewer
 from dq_marine.cli.main import app
 from dq_marine.envs import load_scenario, registered_tasks
 
@@ -85,7 +86,7 @@ def test_each_public_name_stands_on_a_page_of_the_api() -> None:
     described = set()
     for path in (DOCS / "api").glob("*.md"):
         described |= set(re.findall(r"^::: dq_marine\.(?:\w+\.)?(\w+)$", path.read_text(), re.MULTILINE))
-    public = set()
+    public = set(viewer.__all__)
     for stub in ("dq_marine", "envs", "agents"):
         public |= set(re.findall(r"import \w+ as (\w+)", (ROOT / stub / "__init__.pyi").read_text()))
     assert public == described

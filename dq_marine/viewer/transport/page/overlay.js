@@ -56,7 +56,10 @@
   // The plots
 
   const share_of = (time) => end > begin ? (time - begin) / (end - begin) : 0;
-  const written = (value) => String(Number(value.toPrecision(3)));
+  function written(value) {
+    const short = Number(value.toPrecision(3));
+    return Math.abs(short) < 1e6 ? String(short) : short.toExponential();
+  }
 
   function make_plot({label, low, high, logarithmic}) {
     const canvas = make("canvas"), cursor = make("div", {className: "cursor"}), pen = canvas.getContext("2d");
