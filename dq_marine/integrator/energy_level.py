@@ -14,7 +14,7 @@ STEADY = 1e-8
 """Of the energy's square: below this the square of the momentum's rate counts as zero."""
 
 
-FAR_FROM_LEVEL = 1e-6
+FAR_FROM_LEVEL = 1e-8
 """Of the energy: one step of Newton's method leaves less than the square of such an excess."""
 
 

@@ -1,9 +1,9 @@
 """Gauss's collocation for whole scenes: order 6 or 8 for smooth forces, exact in the momentum that they leave alone.
 
-Steps are taken four at a time: those of free motion by `gauss_drift`, or for order 6 by `gauss_successive`, those with
-forces at the stages by `gauss_forced`. A step whose sweeps do not converge is taken by the composition's fallback, a
-step of Strang's method, and counted. Gauss's collocation on the momentum keeps energy, momentum and Casimirs of free
-bodies. It is not variational.
+Steps are taken in runs of up to sixteen: those of free motion by `gauss_drift`, or for order 6 by `gauss_successive`,
+those with forces at the stages by `gauss_forced`. A step whose sweeps do not converge is taken by the composition's
+fallback, a step of Strang's method, and counted. Gauss's collocation on the momentum keeps energy, momentum and
+Casimirs of free bodies. It is not variational.
 """
 
 from __future__ import annotations
@@ -11,17 +11,14 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 
-from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.selection import negation, select, some
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
-from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.fallback import Stepped, Take, make_advance_with_fallback, make_take, solved, usable
-from dq_marine.integrator.gauss_drift import make_gauss_four, make_gauss_one
+from dq_marine.integrator.gauss_drift import FreeSteps, make_gauss_steps
 from dq_marine.integrator.gauss_forced import Steps, make_forced_steps, one_of
-from dq_marine.integrator.gauss_successive import SUCCESSIVE, FreeSteps, successive_steps
-from dq_marine.integrator.inertia import Inertia
+from dq_marine.integrator.gauss_successive import SUCCESSIVE, successive_steps
 from dq_marine.integrator.step import (
     Advance,
     Composition,
@@ -32,7 +29,7 @@ from dq_marine.integrator.step import (
 )
 from dq_marine.integrator.water import as_it_is
 
-BATCH = 4
+RUN = 16
 """Steps after which the pose is made consistent with the momentum, in calls of so many."""
 
 
@@ -42,28 +39,16 @@ def is_zero(wrench: Spatial) -> bool:
     return (m[0] == 0.0) & (m[1] == 0.0) & (m[2] == 0.0) & (f[0] == 0.0) & (f[1] == 0.0) & (f[2] == 0.0)
 
 
-@functools.cache
 def make_free_steps(stages: int) -> FreeSteps:
-    """Return (inertia, h, steps, pose, momentum) -> (pose, momentum, report): four steps of free motion, or one."""
-    if stages == SUCCESSIVE:
-        return successive_steps
-    four, one = make_gauss_four(stages), make_gauss_one(stages)
-
-    def free_steps(
-        inertia: Inertia, h: float, steps: int, pose: DualQuaternion, momentum: Spatial
-    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        if steps == BATCH:
-            return four(inertia, h, pose, momentum)
-        return one(inertia, h, pose, momentum)
-
-    return free_steps
+    """Return (inertia, h, steps, pose, momentum) -> (pose, momentum, report): steps of free motion."""
+    return successive_steps if stages == SUCCESSIVE else make_gauss_steps(stages)
 
 
 def make_unforced(composition: Composition, stages: int) -> Advance:
     """Return the advance of a scene without forces of its own.
 
-    The bodies that no wrench pushes try four steps at once, and one by one those that are left over. All others, and
-    those for which that fails, go step by step as under forces.
+    The bodies that no wrench pushes try runs of steps. All others, and those for which that fails, go step by step as
+    under forces.
     """
     free = make_free_steps(stages)
     carry = composition.water.at_stages.carry
@@ -77,7 +62,7 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
         unpushed = is_zero(wrench)
         done = 0
         while done < steps and some(now.progress.under_way):
-            count = BATCH if steps - done >= BATCH else 1
+            count = min(RUN, steps - done)
             node = time + done * h
             pushed = now.progress.under_way
             if some(unpushed & now.progress.under_way):
@@ -99,15 +84,15 @@ def make_unforced(composition: Composition, stages: int) -> Advance:
     return unforced
 
 
-def make_in_fours(attempt: Steps, take: Take) -> Advance:
-    """Return the advance that tries up to four steps at once, and takes those one by one that fail.
+def make_in_runs(attempt: Steps, take: Take) -> Advance:
+    """Return the advance that tries a run of steps, and takes them one by one where that fails.
 
     Args:
-        attempt: whose report says whether its steps may be used.
+        attempt: a run, whose report says whether its steps may be used.
         take: see `fallback.make_take`.
     """
 
-    def in_fours(
+    def in_runs(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
     ) -> StepOutcome:
         h = parameters.timing.h
@@ -115,7 +100,7 @@ def make_in_fours(attempt: Steps, take: Take) -> Advance:
         done = 0
         while done < steps and some(now.progress.under_way):
             node = time + done * h
-            count = min(BATCH, steps - done)
+            count = min(RUN, steps - done)
             rest = now.progress.under_way
             if count > 1:
                 pose, momentum, report = attempt(parameters, node, h, count, now.pose, now.momentum, wrench)
@@ -132,7 +117,7 @@ def make_in_fours(attempt: Steps, take: Take) -> Advance:
             done += count
         return arrival(state, now.pose, now.momentum, state.fluid_memory, now.progress)
 
-    return in_fours
+    return in_runs
 
 
 @functools.cache
@@ -144,7 +129,7 @@ def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
             return make_unforced(composition, stages)
         steps, water = make_forced_steps(composition, gauss(stages)), composition.water.at_stages
         if water.step is as_it_is:
-            return make_in_fours(steps, make_take(one_of(steps), composition.fallback))
+            return make_in_runs(steps, make_take(one_of(steps), composition.fallback))
         return make_advance_with_fallback(water.step(one_of(steps)), composition.fallback)
 
     return make_gauss

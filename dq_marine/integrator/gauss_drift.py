@@ -1,4 +1,4 @@
-"""Free motion by Gauss's collocation on the momentum: drifts over one step, and over four at once.
+"""Free motion by Gauss's collocation on the momentum: drifts over any number of steps, four side by side.
 
 The momentum at the stages comes from `gauss_stages`, the pose from the series of the twist that goes with it. The pose
 is then made consistent with the momentum (G6) and its energy (G10), and the momentum that is handed on is the old one,
@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
 
 from dq_marine.algebra.dual_quaternion import (
     DualQuaternion,
@@ -19,20 +20,23 @@ from dq_marine.algebra.dual_quaternion import (
     pose_renormalise,
 )
 from dq_marine.algebra.frames import momentum_bracket
-from dq_marine.algebra.selection import select, some
-from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_add, spatial_dot, spatial_scale
+from dq_marine.algebra.selection import select, some, spread
+from dq_marine.algebra.spatial import ZERO, Spatial, quadratic_form, spatial_add, spatial_dot, spatial_scale
 from dq_marine.algebra.stages import each_stage, stages_apart, stages_together
-from dq_marine.integrator.collocation import gauss
-from dq_marine.integrator.drift import Drift, transport_momentum
-from dq_marine.integrator.drift_report import DriftReport, is_energy_kept, worst
+from dq_marine.integrator.collocation import Collocation, gauss
+from dq_marine.integrator.drift import transport_momentum
+from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept, worst
 from dq_marine.integrator.energy_level import FAR_FROM_LEVEL, Nearer, levelling
 from dq_marine.integrator.gauss_stages import (
     FreeBody,
+    FreeStage,
+    SweptStages,
     make_begin,
     make_sweep_stages,
     squared_length,
 )
 from dq_marine.integrator.increment import (
+    AT_ONCE,
     Increment,
     Twists,
     as_pose,
@@ -40,18 +44,18 @@ from dq_marine.integrator.increment import (
     consistent,
     increment_of,
     joined,
+    renormalised,
     shifted,
 )
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 
+FreeSteps: TypeAlias = Callable[
+    [Inertia, float, int, DualQuaternion, Spatial], tuple[DualQuaternion, Spatial, DriftReport]
+]
+"""(inertia, h, steps, pose, momentum) -> (pose, momentum, report)."""
+
 FOUR = (1.0, 1.0, 1.0, 1.0)
-"""The steps of a batch, side by side as stages are."""
-
-
-def fitted(length: float, twists: Twists, before: Spatial, after: Spatial) -> Increment:
-    """Return the motion of a step, consistent with the momentum before and after it."""
-    return consistent(length, increment_of(twists), before, after)
-
+"""Steps whose motions are found side by side, as stages are."""
 
 MOST_LEVELLINGS = 4
 """Steps of Newton's method to an energy level, at the most."""
@@ -104,49 +108,46 @@ def moved_by(
     return after, transport_momentum(pose.real, after.real, pose_position(step), momentum), report
 
 
-@functools.cache
-def make_gauss_one(stages: int) -> Drift:
-    """Return (inertia, h, pose, momentum) -> (pose, momentum, report): a step of free motion."""
-    begin, sweep_stages = make_begin(gauss(stages)), make_sweep_stages(gauss(stages))
+class FreeMarch(NamedTuple):
+    """What steps of free motion have come to.
 
-    def gauss_one(
-        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
-    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        body = FreeBody(inertia, squared_length(inertia))
-        before = spatial_scale(h, momentum)
-        swept = sweep_stages(body, before, begin(body, before), False)
-        after = spatial_add(before, swept.change)
-        p = swept.twists
-        increment = fitted(math.sqrt(body.length_squared), Twists(p[0], p[1], p[2], p[3]), before, after)
-        levelled = on_energy_level(body, increment, before)
-        report = DriftReport(swept.report, levelled.energy_kept)
-        return moved_by(levelled.increment, pose, momentum, report)
-
-    return gauss_one
-
-
-@functools.cache
-def make_gauss_four(stages: int) -> Drift:
-    """Return (inertia, h, pose, momentum) -> (pose, momentum, report): four steps of free motion.
-
-    The momentum of four steps is found one after the other, then their motions side by side.
+    Attributes:
+        momentum: at their end, times h (G3).
+        increment: the motion since the start of the first.
+        report: how the sweeps fared.
+        first: the evaluations at all stages that the sweeps of the step that follows begin with.
     """
-    begin, sweep_stages = make_begin(gauss(stages)), make_sweep_stages(gauss(stages))
 
-    def gauss_four(
-        inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
-    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
-        body = FreeBody(inertia, squared_length(inertia))
-        length = math.sqrt(body.length_squared)
-        c0 = spatial_scale(h, momentum)
-        first = sweep_stages(body, c0, begin(body, c0), False)
+    momentum: Spatial
+    increment: Increment
+    report: SolverReport
+    first: FreeStage
+
+
+def make_march_four(method: Collocation) -> Callable[[FreeBody, int, bool, FreeMarch], FreeMarch]:
+    """Return (body, count, whether a step was before, what is before) -> one to four steps more.
+
+    Their momentum is found one after the other, then their motions side by side; steps that are not wanted do not move.
+    """
+    sweep_stages = make_sweep_stages(method)
+
+    def one_more(body: FreeBody, wanted: bool, before: SweptStages, c: Spatial) -> SweptStages:
+        if wanted:
+            return sweep_stages(body, c, before.following, True)
+        like = c.linear[0]
+        still = spread(ZERO, like)
+        report = SolverReport(spread(0.0, like), spread(True, like), 0)
+        return SweptStages((still, still, still, still), still, report, before.following)
+
+    def march_four(body: FreeBody, count: int, ahead: bool, before: FreeMarch) -> FreeMarch:
+        c0 = before.momentum
+        first = sweep_stages(body, c0, before.first, ahead)
         c1 = spatial_add(c0, first.change)
-        second = sweep_stages(body, c1, first.following, True)
+        second = one_more(body, count > 1, first, c1)
         c2 = spatial_add(c1, second.change)
-        third = sweep_stages(body, c2, second.following, True)
+        third = one_more(body, count > 2, second, c2)
         c3 = spatial_add(c2, third.change)
-        fourth = sweep_stages(body, c3, third.following, True)
-        c4 = spatial_add(c3, fourth.change)
+        fourth = one_more(body, count > 3, third, c3)
         p, q, r, s = first.twists, second.twists, third.twists, fourth.twists
         twists = stages_together(
             (
@@ -156,11 +157,43 @@ def make_gauss_four(stages: int) -> Drift:
                 Twists(s[0], s[1], s[2], s[3]),
             )
         )
-        before, after = stages_together((c0, c1, c2, c3)), stages_together((c1, c2, c3, c4))
-        parts = stages_apart(FOUR, each_stage(FOUR, fitted, (length, twists, before, after)))
-        increment = joined(joined(parts[0], parts[1]), joined(parts[2], parts[3]))
-        levelled = on_energy_level(body, consistent(length, increment, c0, c4), c0)
+        parts = stages_apart(FOUR, each_stage(FOUR, increment_of, (twists,)))
+        moved = joined(joined(parts[0], parts[1]), joined(parts[2], parts[3]))
         report = worst(worst(first.report, second.report), worst(third.report, fourth.report))
-        return moved_by(levelled.increment, pose, momentum, DriftReport(report, levelled.energy_kept))
+        return FreeMarch(
+            spatial_add(c3, fourth.change),
+            joined(before.increment, moved),
+            worst(before.report, report),
+            fourth.following,
+        )
 
-    return gauss_four
+    return march_four
+
+
+@functools.cache
+def make_gauss_steps(stages: int) -> FreeSteps:
+    """Return (inertia, h, steps, pose, momentum) -> (pose, momentum, report): steps of free motion.
+
+    They are made consistent (G6), (G10) at the end of all.
+    """
+    begin, march_four = make_begin(gauss(stages)), make_march_four(gauss(stages))
+
+    def gauss_steps(
+        inertia: Inertia, h: float, steps: int, pose: DualQuaternion, momentum: Spatial
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        body = FreeBody(inertia, squared_length(inertia))
+        start = spatial_scale(h, momentum)
+        like = start.linear[0]
+        solver = SolverReport(spread(0.0, like), spread(True, like), 0)
+        reached = FreeMarch(start, spread(AT_ONCE, like), solver, begin(body, start))
+        done = 0
+        while done < steps and some(reached.report.on_rest_branch):
+            reached = march_four(body, steps - done, done > 0, reached)
+            done += len(FOUR)
+        moved = renormalised(reached.increment)
+        increment = consistent(math.sqrt(body.length_squared), moved, start, reached.momentum)
+        levelled = on_energy_level(body, increment, start)
+        report = DriftReport(reached.report, levelled.energy_kept)
+        return moved_by(levelled.increment, pose, momentum, report)
+
+    return gauss_steps

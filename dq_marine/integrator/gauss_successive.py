@@ -12,7 +12,6 @@ fill already, so that operations are all that counts.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion
@@ -36,6 +35,7 @@ from dq_marine.integrator.increment import (
     consistent,
     increment_of_quadratic,
     joined,
+    renormalised,
 )
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 from dq_marine.integrator.sweeps import HOPELESS, MAX_SWEEPS, ROUND_OFF, ROUND_OFF_SINGLE, SLOWEST
@@ -49,10 +49,6 @@ PLAIN_SWEEPS = 3
 
 OF_THE_FOURTH = 0.1
 """Of the change of the fourth sweep: what the next may change, when sweeps end."""
-
-FreeSteps: TypeAlias = Callable[
-    [Inertia, float, int, DualQuaternion, Spatial], tuple[DualQuaternion, Spatial, DriftReport]
-]
 
 
 class Series(NamedTuple):
@@ -180,5 +176,5 @@ def successive_steps(
         c = moved(c, METHOD.weights, rates(stages))  # (G3)
         increment = joined(increment, increment_of_quadratic(quadratic(stages)))
         report = worst(report, solver)
-    levelled = on_energy_level(body, consistent(length, increment, start, c), start)
+    levelled = on_energy_level(body, consistent(length, renormalised(increment), start, c), start)
     return moved_by(levelled.increment, pose, momentum, DriftReport(report, levelled.energy_kept))

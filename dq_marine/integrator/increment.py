@@ -242,6 +242,14 @@ def joined(first: Increment, second: Increment) -> Increment:
     return Increment(quaternion_multiply(first.rotation, second.rotation), add(back, second.shift))
 
 
+def renormalised(increment: Increment) -> Increment:
+    """Return the motion with a rotation of unit length.
+
+    A product of many is off by round-off, mostly to one side: the momentum that it carries would shrink, run by run.
+    """
+    return Increment(unit(increment.rotation), increment.shift)
+
+
 def as_pose(increment: Increment) -> DualQuaternion:
     """Return the increment as a dual quaternion q + eps (1/2) q s."""
     dual = quaternion_scale(0.5, turned(increment.rotation, increment.shift))

@@ -18,8 +18,15 @@ from dq_marine.report.trial import DONE, evaluations_of, finite, overflow_allowe
 COARSEST = 5
 """Steps of a whole motion: methods of order 8 follow most motions with so few."""
 
-FULL_LEVELS = tuple(COARSEST * 2**level for level in range(17))
-QUICK_LEVELS = FULL_LEVELS[:11]
+CLOSE = 160
+"""Steps up to which each number is the square root of two times the one before, later twice: among the coarsest, where
+sweeps only just converge, neither error nor time follows a straight line."""
+
+FULL_LEVELS = (
+    *(round(COARSEST * 2 ** (level / 2)) for level in range(10)),
+    *(CLOSE * 2**level for level in range(12)),
+)
+QUICK_LEVELS = FULL_LEVELS[:16]
 SMALLEST_ERROR = 1e-12
 """Of attitude [rad]: a method that has come this far takes no smaller steps."""
 

@@ -19,6 +19,15 @@ def double(x):
     return 2.0 * square(x)
 
 
+@pytest.fixture(autouse=True, scope="module")
+def parts_known(tmp_path_factory):
+    """The first compilation in a process keeps parts, too; the tests here look at the files of the function alone."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(disk_cache.CACHE_DIRECTORY_VARIABLE, str(tmp_path_factory.mktemp("parts")))
+        patch.setenv(HERE, "1")
+        run()
+
+
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """Where compiled code is kept in this test, in which nothing has been said yet."""

@@ -16,7 +16,7 @@ from dq_marine.algebra.vector3 import scale
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.fallback import usable
-from dq_marine.integrator.gauss_drift import make_gauss_one
+from dq_marine.integrator.gauss_drift import make_gauss_steps
 from dq_marine.physics.matrices import inertia_term
 from dq_marine.physics.term import ForceTerm
 from dq_marine.report.cells import cells
@@ -214,8 +214,8 @@ def test_sweeps_that_overflow_are_not_taken_for_converged():
     for cell in cells(Plan()):
         momentum = from_fossen(tuple(cell.physics.mass_matrix @ cell.velocity))
         with np.errstate(all="ignore"):
-            pose, carried, report = make_gauss_one(4)(
-                inertia_term(cell.physics.mass_matrix), cell.step, origin, momentum
+            pose, carried, report = make_gauss_steps(4)(
+                inertia_term(cell.physics.mass_matrix), cell.step, 1, origin, momentum
             )
         assert not report.solver.on_rest_branch or report.solver.relative_residual_squared < 0.01
         if usable(report):
