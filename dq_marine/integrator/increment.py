@@ -247,7 +247,9 @@ def renormalised(increment: Increment) -> Increment:
 
     A product of many is off by round-off, mostly to one side: the momentum that it carries would shrink, run by run.
     """
-    return Increment(unit(increment.rotation), increment.shift)
+    q = increment.rotation
+    length = math.sqrt(quaternion_dot(q, q) + smallest_normal(q[0]))
+    return Increment(quaternion_scale(1.0 / length, q), increment.shift)
 
 
 def as_pose(increment: Increment) -> DualQuaternion:
