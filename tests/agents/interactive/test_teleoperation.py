@@ -156,6 +156,7 @@ def test_another_vehicle_task_and_weather_are_chosen_in_the_page() -> None:
 
 
 LINE_SHOWN = "document.getElementById('pull-line').style.display === 'block'"
+CAMERA_PLACED = "viewer.camera.matrixWorld.elements[0] !== 0"  # at first it looks along an axis, whatever there is
 MIDDLE = """pointing.pixels_of(
   viewer.scene_tree.find(["world", "vehicle"]).object.getWorldPosition(viewer.camera.position.clone())
 )"""
@@ -188,16 +189,17 @@ def test_the_vehicle_is_pulled_by_the_mouse_until_it_is_let_go_or_the_page_is_cl
     where = f"[{reading('north')}, {reading('east')}]"
     with flight(*options, "--trajectory", str(trajectory)) as (process, page):
         page.wait_until(f"{reading('position error')} > 0")
+        page.wait_until(CAMERA_PLACED)
         x, y = take_hold(page)
         begun = np.array(page.evaluate(where))
         right = np.array(page.evaluate("[0, 2].map((axis) => viewer.camera.matrixWorld.elements[axis])"))
-        page.mouse("mouseMoved", x + 200, y, held=CTRL)
+        page.mouse("mouseMoved", x + 300, y, held=CTRL)
         to_the_right = "+".join(
             f"{share} * ({reading(name)} - {start})"
             for share, name, start in zip(right, ("north", "east"), begun, strict=True)
         )
         page.wait_until(f"{to_the_right} > 0.3")  # it drifts at first, wherever it was going
-        page.mouse("mouseReleased", x + 200, y, held=CTRL)
+        page.mouse("mouseReleased", x + 300, y, held=CTRL)
         page.wait_until("document.getElementById('pull-line').style.display === 'none'")
         time.sleep(1.0)
         x, y = take_hold(page)
