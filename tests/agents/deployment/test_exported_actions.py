@@ -11,6 +11,7 @@ import pytest
 import torch
 from stable_baselines3 import PPO, SAC, TD3
 from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize
+from support.sweeps import sweep
 
 from dq_marine.agents.deployment.description import METADATA_KEY
 from dq_marine.agents.deployment.formats import onnx_bytes, torchscript_bytes
@@ -74,8 +75,8 @@ class Somewhere(gym.Env[Any, Any]):
         return self.observation_space.sample(), 0.0, False, False, {}
 
 
-@pytest.mark.parametrize("goals", [False, True])
-@pytest.mark.parametrize("normalised", [False, True])
+@pytest.mark.parametrize("goals", sweep([False, True], plain=[True]))
+@pytest.mark.parametrize("normalised", sweep([False, True], plain=[True]))
 @pytest.mark.parametrize(("kind", "gain"), [(PPO, 500.0), (SAC, 60.0)])
 def test_goals_limits_and_raw_observations(
     goals: bool, normalised: bool, kind: Any, gain: float, ppo: Any

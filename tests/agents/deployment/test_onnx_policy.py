@@ -12,6 +12,7 @@ import numpy as np
 import onnx
 import pytest
 from support.command_line import assert_refused, run
+from support.sweeps import sweep
 
 from dq_marine.agents.deployment.description import METADATA_KEY
 from dq_marine.agents.deployment.onnx_policy import OnnxPolicy
@@ -42,7 +43,10 @@ def test_an_episode_is_that_of_the_run(algorithm: str, request: pytest.FixtureRe
     assert ours.total_reward == pytest.approx(theirs.total_reward, abs=1e-4)
 
 
-@pytest.mark.parametrize("command", ["fly", "evaluate", "compare", "leaderboard"])
+@pytest.mark.parametrize(
+    "command",
+    sweep(["fly", "evaluate", "compare", "leaderboard"], plain=["fly", "evaluate", "compare"]),
+)
 def test_flying_imports_neither_torch_nor_stable_baselines3(command: str, ppo: Any, tmp_path: Path) -> None:
     arguments = {
         "fly": ["fly", "--seconds", "1", "--trajectory", str(tmp_path / "flight.csv")],

@@ -3,6 +3,7 @@
 import gymnasium as gym
 import numpy as np
 import pytest
+from support.sweeps import sweep
 
 from dq_marine.backend.packing import unpack
 from dq_marine.envs.tasks import obstacle_avoidance, pipeline_inspection, terrain_following
@@ -11,6 +12,11 @@ from dq_marine.viewer.placement import Placement, quaternion_wxyz
 
 FAR = 20.0  # vehicle lengths: through most of the field
 QUIET = {"noise": 0.0, "dropout": 0.0}
+COUNTS = {
+    "ObstacleAvoidance": obstacle_avoidance.BEAMS,
+    "TerrainFollowing": terrain_following.BEAMS,
+    "PipelineInspection": pipeline_inspection.BEAMS,
+}
 TOLERANCE = 1e-3  # m: rays are traced to less
 
 
@@ -59,11 +65,7 @@ def test_marks_lie_on_the_seabed():
 
 @pytest.mark.parametrize(
     ("name", "count"),
-    [
-        ("ObstacleAvoidance", obstacle_avoidance.BEAMS),
-        ("TerrainFollowing", terrain_following.BEAMS),
-        ("PipelineInspection", pipeline_inspection.BEAMS),
-    ],
+    sweep(COUNTS.items(), plain=[("ObstacleAvoidance", COUNTS["ObstacleAvoidance"])]),
 )
 def test_what_is_drawn_is_what_the_agent_was_told(name, count):
     env = made(name, reach=FAR, noise=0.05, dropout=0.3)

@@ -90,7 +90,7 @@ def test_strips_have_their_terminal_velocity_at_any_step(plane, axis, h):
     assert body.velocity_body[axis] == pytest.approx(np.sqrt(5.0 / resistance), rel=1e-7)
 
 
-@pytest.mark.parametrize("stiffness", [1.0, 1e2, 1e4])
+@pytest.mark.parametrize("stiffness", sweep([1.0, 1e2, 1e4], plain=[1e2]))
 @pytest.mark.parametrize("kick", ["kick", "accurate_kick"])
 def test_kicks_settle_exactly_where_wrench_and_drag_balance(kick, stiffness):
     """At frozen pose with h lambda of the stiffness's size, from rest and from far beyond, without ringing on."""
