@@ -16,8 +16,8 @@ ROUND_OFF = 1e-15  # of the size: what the next sweep would change, when sweeps 
 ROUND_OFF_SINGLE = 3e-7  # the same in single precision
 HOPELESS = 1e4  # of the size: sweeps that change more diverge
 SLOWEST = 0.5  # of the squared change, from one sweep to the next: sweeps that shrink it less are not trusted
-LARGEST_TELLTALE = 0.1  # of the size, squared: larger changes do not tell the error
-OF_THE_ERROR = 0.05  # see `loose`
+LARGEST_TELLTALE = 0.01  # of the size, squared: larger changes do not tell the error
+OF_THE_ERROR = 0.01  # see `loose`
 AHEAD = 15.0  # times as large is the change of the second sweep that begins with rates of the step before
 
 Sweep: TypeAlias = Callable[[Any, Any, Any], Any]
