@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from dq_marine.algebra.selection import by_precision, smallest_normal
+from dq_marine.algebra.selection import by_precision, smallest_normal, spread
 from dq_marine.algebra.vector3 import Vector3, dot
 
 CONVERGED_RESIDUAL = 1e-14
@@ -57,6 +57,11 @@ class DriftReport(NamedTuple):
 
     solver: SolverReport
     energy_kept: bool
+
+
+def nothing_solved(like: float) -> SolverReport:
+    """Return the report on no solution at all, in as many lanes as `like` has: to begin `worst` with."""
+    return SolverReport(spread(0.0, like), spread(True, like), 0)
 
 
 def worst(first: SolverReport, second: SolverReport) -> SolverReport:

@@ -11,10 +11,12 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 
-from dq_marine.algebra.selection import negation, select, some
+from dq_marine.algebra.dual_quaternion import DualQuaternion
+from dq_marine.algebra.selection import negation, select, some, spread
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.collocation import gauss
+from dq_marine.integrator.drift_report import DriftReport, SolverReport, worst
 from dq_marine.integrator.fallback import Stepped, Take, make_advance_with_fallback, make_take, solved, usable
 from dq_marine.integrator.gauss_drift import FreeSteps, make_gauss_steps
 from dq_marine.integrator.gauss_forced import Steps, make_forced_steps, one_of
@@ -44,52 +46,41 @@ def make_free_steps(stages: int) -> FreeSteps:
     return successive_steps if stages == SUCCESSIVE else make_gauss_steps(stages)
 
 
-def make_unforced(composition: Composition, stages: int) -> Advance:
-    """Return the advance of a scene without forces of its own.
+def make_free_attempt(composition: Composition, stages: int) -> Steps:
+    """Return (parameters, time, h, steps, pose, momentum, wrench) -> (pose, momentum, report): a run of free motion.
 
-    The bodies that no wrench pushes try runs of steps. All others, and those for which that fails, go step by step as
-    under forces.
+    By the report, bodies that a wrench pushes are not solved.
     """
-    free = make_free_steps(stages)
-    carry = composition.water.at_stages.carry
-    take = make_take(one_of(make_forced_steps(composition, gauss(stages))), composition.fallback)
+    free, carry = make_free_steps(stages), composition.water.at_stages.carry
 
-    def unforced(
-        parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
-    ) -> StepOutcome:
-        inertia, h = parameters.inertia, parameters.timing.h
-        now = Stepped(state.pose, state.momentum, set_out(state))
+    def attempt(
+        parameters: StepParameters,
+        time: float,
+        h: float,
+        steps: int,
+        pose: DualQuaternion,
+        momentum: Spatial,
+        wrench: Spatial,
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
         unpushed = is_zero(wrench)
-        done = 0
-        while done < steps and some(now.progress.under_way):
-            count = min(RUN, steps - done)
-            node = time + done * h
-            pushed = now.progress.under_way
-            if some(unpushed & now.progress.under_way):
-                pose, momentum, report = free(inertia, h, count, now.pose, now.momentum)
-                pose = carry(parameters.water, node, count * h, pose)
-                fine = unpushed & now.progress.under_way & usable(report)
-                now = Stepped(
-                    select(fine, pose, now.pose),
-                    select(fine, momentum, now.momentum),
-                    solved(now.progress, fine, report, count),
-                )
-                pushed = pushed & negation(fine)
-            if some(pushed):
-                for step in range(count):
-                    now = take(parameters, wrench, node + step * h, h, now, pushed)
-            done += count
-        return arrival(state, now.pose, now.momentum, state.fluid_memory, now.progress)
+        solver = SolverReport(spread(0.0, momentum.linear[0]), unpushed, 0)
+        report = DriftReport(solver, unpushed)
+        if some(unpushed):
+            pose, momentum, free_report = free(parameters.inertia, h, steps, pose, momentum)
+            pose = carry(parameters.water, time, steps * h, pose)
+            report = DriftReport(worst(solver, free_report.solver), free_report.energy_kept)
+        return pose, momentum, report
 
-    return unforced
+    return attempt
 
 
-def make_in_runs(attempt: Steps, take: Take) -> Advance:
+def make_in_runs(attempt: Steps, take: Take, shortest: int) -> Advance:
     """Return the advance that tries a run of steps, and takes them one by one where that fails.
 
     Args:
         attempt: a run, whose report says whether its steps may be used.
         take: see `fallback.make_take`.
+        shortest: steps that are worth an attempt.
     """
 
     def in_runs(
@@ -102,7 +93,7 @@ def make_in_runs(attempt: Steps, take: Take) -> Advance:
             node = time + done * h
             count = min(RUN, steps - done)
             rest = now.progress.under_way
-            if count > 1:
+            if count >= shortest:
                 pose, momentum, report = attempt(parameters, node, h, count, now.pose, now.momentum, wrench)
                 fine = rest & usable(report)
                 now = Stepped(
@@ -125,11 +116,12 @@ def make_gauss_method(stages: int) -> Callable[[Composition], Advance]:
     """Return the method of order 2 x stages: (composition) -> advance."""
 
     def make_gauss(composition: Composition) -> Advance:
-        if composition.forceless:
-            return make_unforced(composition, stages)
         steps, water = make_forced_steps(composition, gauss(stages)), composition.water.at_stages
+        if composition.forceless:  # but for a wrench, under which bodies go step by step
+            take = make_take(one_of(steps), composition.fallback)
+            return make_in_runs(make_free_attempt(composition, stages), take, shortest=1)
         if water.step is as_it_is:
-            return make_in_runs(steps, make_take(one_of(steps), composition.fallback))
+            return make_in_runs(steps, make_take(one_of(steps), composition.fallback), shortest=2)
         return make_advance_with_fallback(water.step(one_of(steps)), composition.fallback)
 
     return make_gauss

@@ -25,7 +25,7 @@ from dq_marine.algebra.spatial import ZERO, Spatial, quadratic_form, spatial_add
 from dq_marine.algebra.stages import each_stage, stages_apart, stages_together
 from dq_marine.integrator.collocation import Collocation, gauss
 from dq_marine.integrator.drift import transport_momentum
-from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept, worst
+from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept, nothing_solved, worst
 from dq_marine.integrator.energy_level import FAR_FROM_LEVEL, Nearer, levelling
 from dq_marine.integrator.gauss_stages import (
     FreeBody,
@@ -136,8 +136,7 @@ def make_march_four(method: Collocation) -> Callable[[FreeBody, int, bool, FreeM
             return sweep_stages(body, c, before.following, True)
         like = c.linear[0]
         still = spread(ZERO, like)
-        report = SolverReport(spread(0.0, like), spread(True, like), 0)
-        return SweptStages((still, still, still, still), still, report, before.following)
+        return SweptStages((still, still, still, still), still, nothing_solved(like), before.following)
 
     def march_four(body: FreeBody, count: int, ahead: bool, before: FreeMarch) -> FreeMarch:
         c0 = before.momentum
@@ -184,8 +183,7 @@ def make_gauss_steps(stages: int) -> FreeSteps:
         body = FreeBody(inertia, squared_length(inertia))
         start = spatial_scale(h, momentum)
         like = start.linear[0]
-        solver = SolverReport(spread(0.0, like), spread(True, like), 0)
-        reached = FreeMarch(start, spread(AT_ONCE, like), solver, begin(body, start))
+        reached = FreeMarch(start, spread(AT_ONCE, like), nothing_solved(like), begin(body, start))
         done = 0
         while done < steps and some(reached.report.on_rest_branch):
             reached = march_four(body, steps - done, done > 0, reached)

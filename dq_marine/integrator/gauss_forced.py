@@ -46,7 +46,7 @@ from dq_marine.algebra.stages import each_stage, stage_constants, stage_product,
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
-from dq_marine.integrator.drift_report import DriftReport, SolverReport, worst
+from dq_marine.integrator.drift_report import DriftReport, SolverReport, nothing_solved, worst
 from dq_marine.integrator.energy_level import FAR_FROM_LEVEL, Nearer, levelling
 from dq_marine.integrator.forced_stages import (
     ForcedStage,
@@ -254,12 +254,11 @@ def make_forced_steps(composition: Composition, method: Collocation) -> Steps:
         length_squared = squared_length(inertia)
         start = Place(spatial_scale(h, momentum), pose.real, spread((0.0, 0.0, 0.0), like))
         position = pose_position(pose)
-        solver = SolverReport(spread(0.0, like), spread(True, like), 0)
         at_start = Surroundings(parameters, length_squared, like, h, position, wrench, time, 0.0)
         begun = evaluate(at_start, start)
         pushing = weighted_square(length_squared, begun.wrench) + smallest_normal(like)
         first = each_stage(nodes, same, (begun,))
-        reached = Marched(start, spread(ZERO, like), spread(0.0, like), solver, first)
+        reached = Marched(start, spread(ZERO, like), spread(0.0, like), nothing_solved(like), first)
         for step in range(steps):
             at_start = Surroundings(parameters, length_squared, pushing, h, position, wrench, time, step * h)
             reached = march(at_start, step > 0, reached)

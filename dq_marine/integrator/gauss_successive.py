@@ -26,7 +26,13 @@ from dq_marine.algebra.spatial import (
 )
 from dq_marine.algebra.stages import Weights
 from dq_marine.integrator.collocation import gauss
-from dq_marine.integrator.drift_report import DriftReport, SolverReport, accepted_squared, worst
+from dq_marine.integrator.drift_report import (
+    DriftReport,
+    SolverReport,
+    accepted_squared,
+    nothing_solved,
+    worst,
+)
 from dq_marine.integrator.gauss_drift import moved_by, on_energy_level
 from dq_marine.integrator.gauss_stages import FreeBody, FreeStage, free_stage, squared_length, weighted_square
 from dq_marine.integrator.increment import (
@@ -170,7 +176,7 @@ def successive_steps(
     start = spatial_scale(h, momentum)
     like = start.linear[0]
     c, increment = start, spread(AT_ONCE, like)
-    report = SolverReport(spread(0.0, like), spread(True, like), 0)
+    report = nothing_solved(like)
     for _ in range(steps):
         stages, solver = solved_stages(body, c)
         c = moved(c, METHOD.weights, rates(stages))  # (G3)

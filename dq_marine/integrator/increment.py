@@ -57,8 +57,8 @@ class Twists(NamedTuple):
 
 
 def unit(q: Quaternion) -> Quaternion:
-    """Return q / |q|."""
-    return quaternion_scale(1.0 / math.sqrt(quaternion_dot(q, q)), q)
+    """Return q / |q|; zero for zero, which is left of a rotation that overflowed."""
+    return quaternion_scale(1.0 / math.sqrt(quaternion_dot(q, q) + smallest_normal(q[0])), q)
 
 
 def turned(p: Quaternion, w: Vector3) -> Quaternion:
@@ -247,9 +247,7 @@ def renormalised(increment: Increment) -> Increment:
 
     A product of many is off by round-off, mostly to one side: the momentum that it carries would shrink, run by run.
     """
-    q = increment.rotation
-    length = math.sqrt(quaternion_dot(q, q) + smallest_normal(q[0]))
-    return Increment(quaternion_scale(1.0 / length, q), increment.shift)
+    return Increment(unit(increment.rotation), increment.shift)
 
 
 def as_pose(increment: Increment) -> DualQuaternion:

@@ -108,6 +108,13 @@ def test_without_a_plan_lqr_flies_and_it_is_counted():
     assert np.array_equal(flown(env, mpc)[1], flown(env, lqr)[1])
 
 
+@pytest.mark.sweep  # the flight above is LQR's, which arrives in a plain run
+def test_without_a_plan_it_arrives_all_the_same():
+    env = made()
+    hasty = read_settings("trajectory", TrajectorySettings).model_copy(update={"iterations": 1})
+    assert fly_episode(env, MPCController.for_env(env, hasty), seed=0).success
+
+
 def test_without_a_plan_the_one_before_goes_on():
     env = made()
     mpc = MPCController.for_env(env)

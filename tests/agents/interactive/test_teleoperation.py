@@ -156,9 +156,8 @@ def test_another_vehicle_task_and_weather_are_chosen_in_the_page() -> None:
 
 
 LINE_SHOWN = "document.getElementById('pull-line').style.display === 'block'"
-CAMERA_PLACED = (
-    "viewer.camera.matrixWorld.elements[0] !== 0"  # at first it looks along an axis, whatever there is
-)
+# Before the scene has placed it, the camera looks along an axis.
+CAMERA_PLACED = "viewer.camera.matrixWorld.elements[0] !== 0"
 MIDDLE = """pointing.pixels_of(
   viewer.scene_tree.find(["world", "vehicle"]).object.getWorldPosition(viewer.camera.position.clone())
 )"""
