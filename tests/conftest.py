@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 
 from support.child_compilation import compile_in_children
@@ -10,8 +11,12 @@ pytest_plugins = ("support.browser", "support.sweeps", "support.compilations")
 
 
 def pytest_configure() -> None:
-    """Bound the memory of long runs."""
+    """Bound the memory of long runs, and the threads of the processes that this one starts.
+
+    Where several test side by side, BLAS's threads wait for each other: flights by MPC took five times as long.
+    """
     compile_in_children()
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 def pytest_collection_modifyitems(items) -> None:

@@ -21,12 +21,16 @@ CONTROLS = (Group("all", (Button("go", "Go"), Slider("speed", "speed", 0.0, 2.0,
 PATIENCE = 20.0
 
 
-@pytest.fixture
-def viewer() -> Iterator[LiveViewer]:
+def shown() -> Iterator[LiveViewer]:
     with LiveViewer(ROV, title="An ROV") as running:
         running.draw(snapshot())
         running.show_controls(CONTROLS)
         yield running
+
+
+viewer = pytest.fixture(shown)
+lasting = pytest.fixture(shown, scope="module", name="lasting")
+"""One that goes on, whatever it was told before."""
 
 
 def panel_of(viewer: LiveViewer, **keywords: Any) -> ClientConnection:
@@ -101,12 +105,12 @@ def test_late_pages_are_told_what_there_is(viewer: LiveViewer) -> None:
     ],
     ids=lambda message: str(message)[:24],
 )
-def test_a_page_that_says_anything_else_is_cut_off(message: str | bytes, viewer: LiveViewer) -> None:
-    with panel_of(viewer) as page:
+def test_a_page_that_says_anything_else_is_cut_off(message: str | bytes, lasting: LiveViewer) -> None:
+    with panel_of(lasting) as page:
         page.send(message)
         with pytest.raises(ConnectionClosed):
             told(page, lambda content: False)
-    assert events_of(viewer, 1) == [Event(LEFT)]
+    assert events_of(lasting, 1) == [Event(LEFT)]
 
 
 def test_words_that_nobody_takes_are_forgotten_oldest_first(viewer: LiveViewer) -> None:
@@ -120,21 +124,21 @@ def test_words_that_nobody_takes_are_forgotten_oldest_first(viewer: LiveViewer) 
     assert events[-1] == Event("speed", 0.5)
 
 
-def test_who_does_not_know_the_path_is_refused(viewer: LiveViewer) -> None:
-    address = viewer.url.replace("http://", "ws://")
+def test_who_does_not_know_the_path_is_refused(lasting: LiveViewer) -> None:
+    address = lasting.url.replace("http://", "ws://")
     guessed = address.rstrip("/").rpartition("/")[0] + "/AAAAAAAAAAAAAAAAAAAAAA/panel"
     with pytest.raises(InvalidStatus):
         connect(guessed)
 
 
 @pytest.mark.parametrize("origin", ["http://example.org", "http://127.0.0.1:1", "null"])
-def test_a_page_of_another_origin_is_refused(origin: str, viewer: LiveViewer) -> None:
+def test_a_page_of_another_origin_is_refused(origin: str, lasting: LiveViewer) -> None:
     with pytest.raises(InvalidStatus):
-        panel_of(viewer, origin=origin)
-    assert viewer.events() == []
+        panel_of(lasting, origin=origin)
+    assert lasting.events() == []
 
 
-def test_a_page_under_another_name_is_refused(viewer: LiveViewer) -> None:
+def test_a_page_under_another_name_is_refused(lasting: LiveViewer) -> None:
     """A name that was made to mean this computer does not get through."""
     with pytest.raises(InvalidStatus):
-        panel_of(viewer, additional_headers={"Host": "evil.example"})
+        panel_of(lasting, additional_headers={"Host": "evil.example"})

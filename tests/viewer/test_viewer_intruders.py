@@ -33,8 +33,9 @@ def picture(width: int, height: int) -> bytes:
 DELETE_ALL = [b"delete", b"/world", umsgpack.packb({"type": "delete", "path": "/world"})]
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def viewer() -> Iterator[LiveViewer]:
+    """One for all: whatever was tried before, it goes on."""
     with LiveViewer(ROV) as running:
         running.draw(snapshot())
         yield running
@@ -163,7 +164,8 @@ def test_a_page_may_send_nothing_but_pictures(message: str | bytes, viewer: Live
 
 
 def test_a_picture_that_nobody_wants_is_dropped(viewer: LiveViewer) -> None:
-    with unharmed(viewer), connect(viewer.url.replace("http://", "ws://") + "socket") as page:
+    address = viewer.url.replace("http://", "ws://") + "socket"
+    with unharmed(viewer), connect(address, max_queue=None) as page:  # takes all that it is told, unread
         page.send(picture(2, 1))
 
 

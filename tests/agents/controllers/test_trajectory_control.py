@@ -80,7 +80,7 @@ def test_where_nothing_is_at_its_limit_mpc_does_what_lqr_does():
     """Handed the same observations; what differs is the model along a bend, and the solver's tolerance."""
     env = made()
     lqr, mpc = LQRController.for_env(env), MPCController.for_env(env)
-    observations, actions = flown(env, lqr)
+    observations, actions = flown(env, lqr, periods=110)
     mpc.reset(env)
     other = np.array([mpc.act(one) for one in observations])
     settled = slice(60, None)
@@ -105,7 +105,7 @@ def test_without_a_plan_lqr_flies_and_it_is_counted():
     lqr.reset(env)
     first = lqr.act(observations[0])
     np.testing.assert_array_equal(first, actions[0])
-    assert np.array_equal(flown(env, mpc)[1], flown(env, lqr)[1])
+    assert np.array_equal(flown(env, mpc, periods=80)[1], flown(env, lqr, periods=80)[1])
 
 
 @pytest.mark.sweep  # the flight above is LQR's, which arrives in a plain run
@@ -132,9 +132,9 @@ def test_the_same_seed_is_the_same_flight(name):
     """By the same controller after another flight, and by a new one."""
     env = made()
     controller = make_baseline(name, env)
-    first = flown(env, controller, periods=80)
-    flown(env, controller, periods=30, seed=9)
-    for again in (flown(env, controller, periods=80), flown(env, make_baseline(name, env), periods=80)):
+    first = flown(env, controller, periods=40)
+    flown(env, controller, periods=15, seed=9)
+    for again in (flown(env, controller, periods=40), flown(env, make_baseline(name, env), periods=40)):
         np.testing.assert_array_equal(again[1], first[1])
 
 

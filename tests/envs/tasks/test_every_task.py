@@ -27,7 +27,7 @@ FLIGHTS = sorted(
 """
 
 SOON_COMPILED = [one for one in DEFAULTS if one[0] == "DepthHeading"]
-"""`tests/envs/vector` has the lanes of StationKeeping in all weather, and of a small task with its own instruments."""
+"""`tests/envs/vector` has the lanes of StationKeeping, and of a small task with its own instruments."""
 
 WITHOUT_SCENERY = ("DepthHeading", "DynamicPositioning", "StationKeeping")
 """Tasks with nothing around the vehicle but water."""

@@ -80,9 +80,7 @@ KEYWORDS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "name", sweep(KEYWORDS, plain=("fixed current", "reward", "all but actuators and wind"))
-)
+@pytest.mark.parametrize("name", sweep(KEYWORDS, plain=("fixed current", "reward")))
 def test_flights_are_the_same_whatever_the_keywords(name):
     keywords = KEYWORDS[name]
     envs = gym.make_vec(ID, num_envs=5, **keywords)
