@@ -25,6 +25,7 @@ from dq_marine.report.leaderboard_policies import Policy
 from dq_marine.report.sources import fingerprint, sources
 from dq_marine.util.extras import extra_needed
 from dq_marine.util.files import write_whole
+from dq_marine.util.side_by_side import one_thread_each
 from dq_marine.vehicles import load_vehicle, vehicle_names
 
 ONLY_SHOWING = ("cli", "manoeuvres", "viewer", "report", "validation", "identification")
@@ -286,7 +287,8 @@ def fly_all(
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(max(1, min(processes, len(missing))), mp_context=context) as pool:
         try:
-            flights = [pool.submit(fly_entry, entry, plan, trained.get(entry.agent)) for entry in missing]
+            with one_thread_each():
+                flights = [pool.submit(fly_entry, entry, plan, trained.get(entry.agent)) for entry in missing]
             for done in as_completed(flights):
                 kept.add(done.result())
                 after(done.result())

@@ -23,11 +23,16 @@ from dq_marine.physics.current.formulas.uniform import STILL_WATER
 from dq_marine.simulation.scene import Scene
 
 M = np.diag([20.0, 25.0, 30.0, 1.0, 1.5, 2.0])
-PROGRAM = (
-    "from dq_marine.simulation.scene import Scene\n"
-    "body = Scene().stepper(); body.step((1.0, 0.0, 0.0, 0.0, 0.0, 0.0), 50)\n"
-    "print(body.position_ned[2])\n"
-)
+PROGRAM = """
+import numpy as np
+from dq_marine.report.methods import METHODS
+from dq_marine.report.physics import Physics
+
+body = METHODS["rk4_quaternion"].body(Physics(np.diag([20.0] * 6), excess_weight=5.0), 0.02)
+body.step(np.zeros(6), 50)
+print(body.position_ned[2])
+"""
+"""A body that sinks, by the method that compiles soonest."""
 
 
 def operations(body):

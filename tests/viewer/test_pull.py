@@ -113,8 +113,10 @@ def test_plain_dragging_turns_the_camera_until_the_panel_says_otherwise(viewer, 
     assert not [event for event in viewer.events() if event.name == "pull"]
     toggle = "document.dispatchEvent(new KeyboardEvent('keydown', {code: 'KeyG', bubbles: true}))"
     page.evaluate(toggle)
+    switch = element("control-pull")
+    page.evaluate(f"{switch}.of_the_episode_before = true")
     viewer.show_controls(GROUPS)  # as at the next episode
-    page.wait_until(f"{element('control-pull')}.checked")
+    page.wait_until(f"!{switch}.of_the_episode_before && {switch}.checked")
     x, y = page.evaluate(MIDDLE)
     page.mouse("mousePressed", x, y)
     assert pulled(viewer) is not None

@@ -26,7 +26,7 @@ FLIGHTS = sorted(
 `tests/envs/core/test_registry.py` flies every task with every vehicle, one by one.
 """
 
-SOON_COMPILED = [one for one in DEFAULTS if one[0] == "DepthHeading"]
+SOON_COMPILED = [one for one in DEFAULTS if one[0] == "Docking"]
 """`tests/envs/vector` has the lanes of StationKeeping, and of a small task with its own instruments."""
 
 WITHOUT_SCENERY = ("DepthHeading", "DynamicPositioning", "StationKeeping")
