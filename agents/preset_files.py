@@ -10,7 +10,8 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from dq_marine.agents.settings import EnvironmentSettings, Settings
+from dq_marine.agents.settings import EnvironmentSettings
+from dq_marine.agents.strict_settings import Settings
 from dq_marine.checks import existing_file, shown
 from dq_marine.errors import InvalidInputError
 

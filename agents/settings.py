@@ -4,19 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
-Positive = Annotated[float, Field(gt=0.0)]
-NonNegative = Annotated[float, Field(ge=0.0)]
-Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
-Count = Annotated[int, Field(ge=1)]
-
-
-class Settings(BaseModel):
-    """A table of a preset file: frozen, without unknown keys, without infinities."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
+from dq_marine.agents.algorithm_settings import AlgorithmSettings, RolloutSettings
+from dq_marine.agents.strict_settings import Count, Fraction, NonNegative, Positive, Settings
 
 class LoopSettings(Settings):
     """Where the poles of three axes are placed: (s^2 + 2 zeta w s + w^2)(s + w_i).
@@ -165,44 +156,6 @@ class EnvironmentSettings(Settings):
     keywords: dict[str, Any] = Field(default_factory=dict)
 
 
-class PPOSettings(Settings):
-    """Hyperparameters of `stable_baselines3.PPO`, by its names.
-
-    Two are said otherwise: the learning rate falls linearly to `final_learning_rate`, and the batch size is what
-    was collected over `minibatches`, so that it follows the number of environments.
-    """
-
-    name: Literal["ppo"]
-    learning_rate: Positive
-    final_learning_rate: Positive
-    n_steps: Count
-    minibatches: Count
-    n_epochs: Count
-    gamma: Fraction
-    gae_lambda: Fraction
-    clip_range: Positive
-    ent_coef: NonNegative
-    vf_coef: NonNegative
-    max_grad_norm: Positive
-    log_std_init: float
-
-
-class SACSettings(Settings):
-    """Hyperparameters of `stable_baselines3.SAC`, by its names; the learning rate falls linearly."""
-
-    name: Literal["sac"]
-    learning_rate: Positive
-    final_learning_rate: Positive
-    buffer_size: Count
-    learning_starts: Annotated[int, Field(ge=0)]
-    batch_size: Count
-    tau: Fraction
-    gamma: Fraction
-    train_freq: Count
-    gradient_steps: Count
-    ent_coef: Literal["auto"] | NonNegative
-
-
 class NetworkSettings(Settings):
     """The policy's and the critic's hidden layers."""
 
@@ -245,14 +198,14 @@ class TrainingSettings(Settings):
     torch_threads: Count
     checkpoint_every: Count
     environment: EnvironmentSettings
-    algorithm: Annotated[PPOSettings | SACSettings, Field(discriminator="name")]
+    algorithm: AlgorithmSettings
     network: NetworkSettings
     normalisation: NormalisationSettings
     evaluation: EvaluationSettings
 
     @model_validator(mode="after")
     def _batches_fit(self) -> Self:
-        if isinstance(self.algorithm, PPOSettings):
+        if isinstance(self.algorithm, RolloutSettings):
             collected = self.envs * self.algorithm.n_steps
             if collected % self.algorithm.minibatches or collected < 2 * self.algorithm.minibatches:
                 raise ValueError(

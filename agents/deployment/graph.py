@@ -5,10 +5,12 @@ It is what Stable-Baselines3's `predict(deterministic=True)` does behind `VecNor
 
 from __future__ import annotations
 
+from typing import Any
+
 import gymnasium as gym
 import numpy as np
 
-from dq_marine.agents.training.learners import Model
+from dq_marine.agents.training.algorithms import Model
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
 
@@ -16,7 +18,7 @@ with extra_needed("exporting a policy", "agents"):
     import torch
     from stable_baselines3.common.policies import ActorCriticPolicy, BasePolicy
     from stable_baselines3.common.vec_env import VecNormalize
-    from stable_baselines3.sac.policies import SACPolicy
+    from stable_baselines3.td3.policies import TD3Policy
     from torch import Tensor, nn
 
 
@@ -101,12 +103,12 @@ class _PPODecision(nn.Module):
         return mean
 
 
-class _SACDecision(nn.Module):
-    """The same of an actor whose actions are squashed."""
+class _SquashedDecision(nn.Module):
+    """The same of an actor whose actions are squashed: SAC's, TQC's and CrossQ's."""
 
-    def __init__(self, policy: SACPolicy) -> None:
+    def __init__(self, actor: Any) -> None:
         super().__init__()
-        self._actor = policy.actor
+        self._actor = actor
 
     def forward(self, observations: Tensor | dict[str, Tensor]) -> Tensor:
         mean, _, _ = self._actor.get_action_dist_params(observations)
@@ -114,10 +116,18 @@ class _SACDecision(nn.Module):
 
 
 def _decision(policy: BasePolicy) -> nn.Module:
+    if hasattr(policy, "lstm_actor"):
+        raise InvalidInputError(
+            f"a policy of {type(policy).__name__} remembers the steps before, which an exported file does not; fly it "
+            "from the folder of its run, or export one of ppo, sac, td3, tqc or crossq"
+        )
     if isinstance(policy, ActorCriticPolicy):
         return _PPODecision(policy)
-    if isinstance(policy, SACPolicy):
-        return _SACDecision(policy)
+    if isinstance(policy, TD3Policy):
+        return policy.actor
+    actor = getattr(policy, "actor", None)
+    if hasattr(actor, "get_action_dist_params"):
+        return _SquashedDecision(actor)
     raise InvalidInputError(
-        f"a policy of {type(policy).__name__} cannot be exported; export one of PPO or SAC"
+        f"a policy of {type(policy).__name__} cannot be exported; export one of ppo, sac, td3, tqc or crossq"
     )

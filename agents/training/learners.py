@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeAlias
 
 import gymnasium as gym
 
 from dq_marine.agents.environments import make_environments
-from dq_marine.agents.settings import PPOSettings, SACSettings, TrainingSettings
+from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.training.algorithms import Model, keywords_of, model_class, policy_name
 from dq_marine.agents.training.reward_sums import RewardSums
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
 from dq_marine.agents.training.vec_env import MarineVecEnv
@@ -24,31 +23,11 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
-    import torch
-    from stable_baselines3 import PPO, SAC
-    from stable_baselines3.common.base_class import BaseAlgorithm
+    from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
     from stable_baselines3.common.vec_env import VecMonitor, VecNormalize
-
-Model: TypeAlias = BaseAlgorithm
-"""A `PPO` or a `SAC`."""
-
-MODEL_CLASSES: dict[str, type[PPO] | type[SAC]] = {"ppo": PPO, "sac": SAC}
-ACTIVATIONS = {"tanh": torch.nn.Tanh, "relu": torch.nn.ReLU}
 
 DEVICE = "cpu"
 """Networks this small wait longer for an accelerator than they compute."""
-
-
-@dataclass(frozen=True)
-class LinearSchedule:
-    """A learning rate that falls linearly from `first` to `last`; a class of ours, so that it can be pickled."""
-
-    first: float
-    last: float
-
-    def __call__(self, progress_remaining: float) -> float:
-        """Return the rate; `progress_remaining` falls from 1 to 0."""
-        return self.last + (self.first - self.last) * progress_remaining
 
 
 def make_training_envs(settings: TrainingSettings) -> VecNormalize:
@@ -76,28 +55,22 @@ def make_evaluation_envs(settings: TrainingSettings) -> VecNormalize:
 
 
 def make_model(settings: TrainingSettings, seed: int, tensorboard: Path) -> Model:
-    """Return an untrained model with its environments; it logs into the folder `tensorboard`."""
-    algorithm = settings.algorithm
-    network = {
-        "net_arch": list(settings.network.layers),
-        "activation_fn": ACTIVATIONS[settings.network.activation],
-    }
+    """Return an untrained model with its environments; it logs into the folder `tensorboard`.
+
+    Raises:
+        InvalidInputError: the algorithm does not take the observations.
+        MissingDependencyError: the library of the algorithm is not installed.
+    """
     envs = make_training_envs(settings)
     goals = isinstance(envs.observation_space, gym.spaces.Dict)
-    common: dict[str, Any] = {
-        "policy": "MultiInputPolicy" if goals else "MlpPolicy",
-        "env": envs,
-        "learning_rate": LinearSchedule(algorithm.learning_rate, algorithm.final_learning_rate),
-        "gamma": algorithm.gamma,
-        "ent_coef": algorithm.ent_coef,
-        "seed": seed,
-        "tensorboard_log": str(tensorboard),
-        "device": DEVICE,
-    }
-    if isinstance(algorithm, SACSettings):
-        return SAC(**common, **_sac_keywords(algorithm), policy_kwargs=network)
-    network["log_std_init"] = algorithm.log_std_init
-    return PPO(**common, **_ppo_keywords(algorithm, settings.envs), policy_kwargs=network)
+    return model_class(settings.algorithm.name)(
+        policy_name(settings.algorithm, goals=goals),
+        envs,
+        **keywords_of(settings, envs.action_space),
+        seed=seed,
+        tensorboard_log=str(tensorboard),
+        device=DEVICE,
+    )
 
 
 def environments_of(model: Model) -> MarineVectorEnv:
@@ -116,7 +89,7 @@ def save_model(model: Model, folder: Path, *, replay_buffer: bool) -> None:
     normalisation = model.get_vec_normalize_env()
     if normalisation is not None:
         normalisation.save(str(folder / NORMALISATION_FILE))
-    if replay_buffer and isinstance(model, SAC):
+    if replay_buffer and isinstance(model, OffPolicyAlgorithm):
         with (folder / REPLAY_BUFFER_FILE).open("wb") as file:
             model.save_replay_buffer(file)
 
@@ -132,11 +105,11 @@ def load_model(settings: TrainingSettings, folder: Path, seed: int, tensorboard:
     venv = make_training_envs(settings).venv
     with refusing_damage(folder):
         envs = VecNormalize.load(str(folder / NORMALISATION_FILE), venv)
-        model = MODEL_CLASSES[settings.algorithm.name].load(
+        model = model_class(settings.algorithm.name).load(
             folder / MODEL_FILE, env=envs, device=DEVICE, tensorboard_log=str(tensorboard)
         )
         model.set_random_seed(seed)
-        if isinstance(model, SAC):
+        if isinstance(model, OffPolicyAlgorithm):
             model.load_replay_buffer(folder / REPLAY_BUFFER_FILE)
     return model
 
@@ -155,17 +128,6 @@ def refusing_damage(folder: Path) -> Iterator[None]:
             f"{folder} cannot be loaded: {shown(error)}; it is damaged, or of other settings or versions than "
             "run.json has: restore it from a copy, install those versions, or train anew with --force"
         ) from error
-
-
-def _ppo_keywords(algorithm: PPOSettings, envs: int) -> dict[str, Any]:
-    same = ("n_steps", "n_epochs", "gae_lambda", "clip_range", "vf_coef", "max_grad_norm")
-    batch_size = envs * algorithm.n_steps // algorithm.minibatches
-    return {"batch_size": batch_size, **{name: getattr(algorithm, name) for name in same}}
-
-
-def _sac_keywords(algorithm: SACSettings) -> dict[str, Any]:
-    same = ("buffer_size", "learning_starts", "batch_size", "tau", "train_freq", "gradient_steps")
-    return {name: getattr(algorithm, name) for name in same}
 
 
 def _environments(settings: TrainingSettings, count: int) -> VecMonitor:

@@ -7,9 +7,11 @@ from typing import Any
 
 import gymnasium as gym
 import numpy as np
+from numpy.typing import NDArray
 
 from dq_marine.agents.environments import space_shape
-from dq_marine.agents.training.learners import MODEL_CLASSES, refusing_damage
+from dq_marine.agents.training.algorithms import model_class
+from dq_marine.agents.training.learners import refusing_damage
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, RunFolder
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
@@ -32,13 +34,14 @@ class TrainedPolicy:
         """
         self.settings = folder.read_plan().settings
         snapshot = folder.trained_snapshot
-        model_class = MODEL_CLASSES[self.settings.algorithm.name]
+        algorithm = model_class(self.settings.algorithm.name)
         with refusing_damage(snapshot):
-            self.model = model_class.load(snapshot / MODEL_FILE, device="cpu")
+            self.model = algorithm.load(snapshot / MODEL_FILE, device="cpu")
             self.normalisation = pickle.loads((snapshot / NORMALISATION_FILE).read_bytes())  # noqa: S301 - said above
+        self._memory: tuple[NDArray[Any], ...] | None = None
 
     def reset(self, env: gym.Env[Any, Any]) -> None:
-        """Check that the policy fits the environment; it keeps nothing from step to step.
+        """Check that the policy fits the environment, and forget the episode before, if the policy remembers.
 
         Raises:
             InvalidInputError: it was trained on other observations or actions.
@@ -53,8 +56,10 @@ class TrainedPolicy:
                     f"{space_shape(found)}; "
                     "fly it with the task and vehicle that it was trained with"
                 )
+        self._memory = None
 
     def act(self, observation: Observation) -> Action:
         """Return the most likely action, shape (n,)."""
-        action, _ = self.model.predict(self.normalisation.normalize_obs(observation), deterministic=True)
+        seen = self.normalisation.normalize_obs(observation)
+        action, self._memory = self.model.predict(seen, state=self._memory, deterministic=True)
         return np.asarray(action, dtype=np.float32)

@@ -136,7 +136,7 @@ def requested_training(
 
     Args:
         options: of the environment.
-        algorithm: "ppo" or "sac", for the preset of that name; None takes the preset's, or "ppo".
+        algorithm: whose preset of the same name is taken; None takes the preset's, or "ppo".
         preset: a name or a file's path; None takes the algorithm's.
         timesteps: in all; None keeps the preset's, and so on for the others.
         envs: environments to learn from.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from dq_marine.agents.settings import Settings
+    from dq_marine.agents.strict_settings import Settings
 
 
 SECONDS = 30.0
@@ -20,7 +20,11 @@ class Algorithm(StrEnum):
     """What `train --algorithm` takes."""
 
     PPO = "ppo"
+    RECURRENT_PPO = "recurrent_ppo"
     SAC = "sac"
+    TD3 = "td3"
+    TQC = "tqc"
+    CROSSQ = "crossq"
 
 
 class Baseline(StrEnum):
