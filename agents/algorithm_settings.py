@@ -33,7 +33,7 @@ class RolloutSettings(LearnerSettings):
         minibatches: into which that is cut: the batch size follows from the number of environments.
     """
 
-    OF_THE_POLICY = ("log_std_init",)
+    OF_THE_POLICY: ClassVar[tuple[str, ...]] = ("log_std_init",)
 
     n_steps: Count
     minibatches: Count

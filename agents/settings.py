@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from dq_marine.agents.algorithm_settings import AlgorithmSettings, RolloutSettings
 from dq_marine.agents.strict_settings import Count, Fraction, NonNegative, Positive, Settings
 
+
 class LoopSettings(Settings):
     """Where the poles of three axes are placed: (s^2 + 2 zeta w s + w^2)(s + w_i).
 

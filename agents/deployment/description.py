@@ -7,7 +7,8 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, ValidationError, field_validator
 
 from dq_marine.agents.environments import make_environment, marine
-from dq_marine.agents.settings import EnvironmentSettings, Positive, Settings
+from dq_marine.agents.settings import EnvironmentSettings
+from dq_marine.agents.strict_settings import Positive, Settings
 from dq_marine.checks import shown
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError

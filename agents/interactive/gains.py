@@ -11,7 +11,7 @@ from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.journeys import Journey
 from dq_marine.agents.preset_files import validate_settings
-from dq_marine.agents.settings import Settings
+from dq_marine.agents.strict_settings import Settings
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.viewer.controls import Event, Group, Slider
 

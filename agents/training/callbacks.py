@@ -10,8 +10,9 @@ import numpy as np
 from rich.progress import Progress as ProgressBar
 from rich.progress import TaskID
 
+from dq_marine.agents.training.algorithms import Model
 from dq_marine.agents.training.episode_log import episode_tags, mean_tags, metrics_in
-from dq_marine.agents.training.learners import Model, save_model
+from dq_marine.agents.training.learners import save_model
 from dq_marine.agents.training.run_folder import Kind, RunFolder
 from dq_marine.agents.training.snapshots import Progress
 from dq_marine.util.extras import extra_needed

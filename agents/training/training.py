@@ -17,10 +17,10 @@ from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.evaluation import Score, evaluate
 from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.training.algorithms import OF_CONTRIB, Model
 from dq_marine.agents.training.callbacks import Checkpoints, Evaluations, ProgressUpdates, Saver
 from dq_marine.agents.training.episode_log import EpisodeLog
 from dq_marine.agents.training.learners import (
-    Model,
     environments_of,
     load_model,
     make_evaluation_envs,
@@ -92,7 +92,7 @@ def begin_training(
     """
     seed = whole_number("seed", seed, least=0, most=LARGEST_SEED)
     make_environment(settings.environment).close()  # so that a mistake leaves an earlier run untouched
-    plan = RunPlan(settings, seed, _versions())
+    plan = RunPlan(settings, seed, _versions(settings))
     with folder.begun(plan, force=force):
         return _train(folder, plan, console, watch)
 
@@ -212,7 +212,9 @@ def _progress_bar(console: Console) -> ProgressBar:
     )
 
 
-def _versions() -> dict[str, str]:
+def _versions(settings: TrainingSettings) -> dict[str, str]:
     """Return what a run's numbers depend on beyond its settings."""
-    names = ("dq-marine", "stable-baselines3", "torch", "numpy", "gymnasium")
+    names = ["dq-marine", "stable-baselines3", "torch", "numpy", "gymnasium"]
+    if settings.algorithm.name in OF_CONTRIB:
+        names.append("sb3-contrib")
     return {"python": sys.version.split()[0], **{name: importlib.metadata.version(name) for name in names}}

@@ -28,6 +28,7 @@ EXAMPLES = examples(
     "dq-marine train --run runs/ppo",
     "dq-marine train --run runs/ppo --resume",
     "dq-marine train --run runs/sac --algorithm sac --seed 1",
+    "dq-marine train --run runs/memory --algorithm recurrent_ppo",
     "dq-marine train --run runs/many --set randomise=default --set sensors=auv",
     "dq-marine train --run runs/calm --set current=0.1 --set reward.effort=0.05",
     "dq-marine train --print-preset --set actuation=thrusters > my_preset.toml",
@@ -89,7 +90,7 @@ def train(
     ] = False,
     only_print: PrintPresetOption = False,
 ) -> None:
-    """Train an agent with PPO or SAC. A run that was interrupted can be resumed.
+    """Train an agent with one of six algorithms. A run that was interrupted can be resumed.
 
     TensorBoard shows returns, what the learner reports, and of each episode the metrics at its end (episode_end/...),
     and the sums of its reward terms (episode_reward/...); of evaluations the same (eval/...).

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from support.trainings import ALGORITHMS
 
 from dq_marine.agents.preset_files import PRESET_FOLDER, preset_names, read_settings
 from dq_marine.agents.settings import (
@@ -29,16 +30,20 @@ def test_shipped_presets_are_valid() -> None:
     assert preset_names() == [
         "autopilot",
         "avoidance",
+        "crossq",
         "dp_controller",
         "over_ground",
         "ppo",
+        "recurrent_ppo",
         "sac",
+        "td3",
+        "tqc",
         "trajectory",
     ]
     read_settings("dp_controller", ControllerSettings)
     read_settings("autopilot", AutopilotSettings)
     read_settings("avoidance", AvoidanceSettings)
-    for name in ("ppo", "sac"):
+    for name in ALGORITHMS:
         assert read_settings(name, TrainingSettings).algorithm.name == name
 
 
@@ -72,8 +77,8 @@ def test_controller_mistakes_are_named(tmp_path: Path) -> None:
 def test_what_is_no_preset(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInputError,
-        match="no preset or file 'ddpg'; the presets are autopilot, avoidance, dp_controller, over_ground, ppo, "
-        "sac, trajectory",
+        match="no preset or file 'ddpg'; the presets are autopilot, avoidance, crossq, dp_controller, over_ground, "
+        "ppo, recurrent_ppo, sac, td3, tqc, trajectory",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"

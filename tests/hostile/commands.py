@@ -54,7 +54,7 @@ COMMANDS: dict[tuple[str, ...], dict[str, tuple[str | None, ...]]] = {
     ("evaluate", "--episodes", "1", "--set", "max_episode_steps=5"): FLIGHT
     | {"--json": ("s.json",), "--trajectories": ("flights",), "--format": ("csv", "parquet"), "--run": ("nowhere",)},
     ("train", "--run", "run", "--preset", "tiny_ppo.toml", "--timesteps", "64"): {
-        "--algorithm": ("ppo", "sac"),
+        "--algorithm": ("ppo", "sac", "crossq"),
         "--set": FLIGHT["--set"],
         "--vehicle": FLIGHT["--vehicle"],
         "--resume": (None,),
@@ -62,7 +62,7 @@ COMMANDS: dict[tuple[str, ...], dict[str, tuple[str | None, ...]]] = {
         "--run": ("tiny_ppo.toml", "."),
         "--seed": ("1",),
     },
-    ("train", "--print-preset"): FLIGHT | {"--algorithm": ("ppo", "sac"), "--run": ("run",), "--resume": (None,)},
+    ("train", "--print-preset"): FLIGHT | {"--algorithm": ("ppo", "crossq"), "--run": ("run",), "--resume": (None,)},
     ("tasks",): {"--markdown": (None,)},
     ("tasks", "StationKeeping"): {"--markdown": (None,)},
     ("vehicles",): {},

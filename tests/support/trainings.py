@@ -33,8 +33,7 @@ final_learning_rate = 1e-4
 gamma = 0.98
 """
 
-PPO = """
-name = "ppo"
+ROLLOUT = """
 n_steps = 16
 minibatches = 2
 n_epochs = 2
@@ -46,22 +45,44 @@ max_grad_norm = 0.5
 log_std_init = -0.5
 """
 
-SAC = """
-name = "sac"
+REPLAY = """
 buffer_size = 2000
 learning_starts = 50
 batch_size = 16
-tau = 0.01
 train_freq = 1
 gradient_steps = 1
-ent_coef = "auto"
 """
+
+ALGORITHMS = {
+    "ppo": ROLLOUT,
+    "recurrent_ppo": ROLLOUT + "lstm_hidden_size = 8",
+    "sac": REPLAY + 'tau = 0.01\nent_coef = "auto"',
+    "td3": REPLAY + """
+tau = 0.01
+policy_delay = 2
+target_policy_noise = 0.2
+target_noise_clip = 0.5
+exploration_noise = 0.1
+""",
+    "tqc": REPLAY + """
+tau = 0.01
+ent_coef = "auto"
+n_quantiles = 5
+n_critics = 2
+top_quantiles_to_drop_per_net = 1
+""",
+    "crossq": REPLAY + 'ent_coef = "auto"\npolicy_delay = 3\nrenorm_warmup_steps = 20',
+}  # fmt: skip
+
+REMEMBERING = tuple(name for name, own in ALGORITHMS.items() if REPLAY in own)
+"""Those with a replay buffer."""
 
 
 def preset(tmp_path: Path, algorithm: str, timesteps: int = 256) -> Path:
     path = tmp_path / f"tiny_{algorithm}.toml"
-    common = COMMON.format(timesteps=timesteps, normalise_reward=str(algorithm == "ppo").lower())
-    path.write_text(common + {"ppo": PPO, "sac": SAC}[algorithm], encoding="utf-8")
+    normalise = str(algorithm not in REMEMBERING).lower()
+    common = COMMON.format(timesteps=timesteps, normalise_reward=normalise)
+    path.write_text(f'{common}name = "{algorithm}"{ALGORITHMS[algorithm]}\n', encoding="utf-8")
     return path
 
 

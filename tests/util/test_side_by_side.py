@@ -33,7 +33,9 @@ def test_what_the_user_said_is_left_and_nothing_stays_after_an_error(monkeypatch
     monkeypatch.delenv(THREAD_NUMBERS[1], raising=False)
     monkeypatch.delenv(THREAD_NUMBERS[2], raising=False)
     before = dict(os.environ)
-    with pytest.raises(KeyError), one_thread_each():
+    with one_thread_each():
         assert told_to_a_child() == "['3', '1', '1']"
+    assert dict(os.environ) == before
+    with pytest.raises(KeyError), one_thread_each():
         raise KeyError
     assert dict(os.environ) == before

@@ -9,7 +9,8 @@ import numpy as np
 import onnxruntime
 import pytest
 import torch
-from stable_baselines3 import PPO, SAC, TD3
+from sb3_contrib import TQC, CrossQ, RecurrentPPO
+from stable_baselines3 import DQN, PPO, SAC, TD3
 from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize
 from support.sweeps import sweep
 
@@ -75,17 +76,24 @@ class Somewhere(gym.Env[Any, Any]):
         return self.observation_space.sample(), 0.0, False, False, {}
 
 
-@pytest.mark.parametrize("goals", sweep([False, True], plain=[True]))
+GAINS = {PPO: 500.0, SAC: 60.0, TD3: 60.0, TQC: 60.0, CrossQ: 60.0}
+KINDS = [(kind, gain, goals) for kind, gain in GAINS.items() for goals in (False, True)]
+KINDS.remove((CrossQ, GAINS[CrossQ], True))  # which has no policy for goals
+
+
 @pytest.mark.parametrize("normalised", sweep([False, True], plain=[True]))
-@pytest.mark.parametrize(("kind", "gain"), [(PPO, 500.0), (SAC, 60.0)])
+@pytest.mark.parametrize(
+    ("kind", "gain", "goals"), sweep(KINDS, plain=[(PPO, 500.0, True), (SAC, 60.0, True)])
+)
 def test_goals_limits_and_raw_observations(
-    goals: bool, normalised: bool, kind: Any, gain: float, ppo: Any
+    normalised: bool, kind: Any, gain: float, goals: bool, ppo: Any
 ) -> None:
     rng = np.random.default_rng(1)
     envs = VecNormalize(DummyVecEnv([lambda: Somewhere(goals)]), norm_obs=normalised, clip_obs=5.0)
     policy = "MultiInputPolicy" if goals else "MlpPolicy"
     model = kind(policy, envs, seed=0, device="cpu", policy_kwargs={"net_arch": [64, 64]})
     last = model.policy.action_net if kind is PPO else model.policy.actor.mu
+    last = last[-2] if kind is TD3 else last
     with torch.no_grad():  # an untrained network asks for little; here the limits are to be reached
         last.weight.mul_(gain)
     spaces = envs.observation_space.spaces if goals else {"observation": envs.observation_space}
@@ -113,10 +121,22 @@ def test_goals_limits_and_raw_observations(
     assert (actions <= high).all()
 
 
+class Choosing(Somewhere):
+    """Actions that are chosen from a list."""
+
+    action_space = gym.spaces.Discrete(2)  # type: ignore[assignment]
+
+
 def test_what_this_package_does_not_train_is_refused() -> None:
+    envs = VecNormalize(DummyVecEnv([lambda: Choosing(False)]))
+    with pytest.raises(InvalidInputError, match="DQNPolicy cannot be exported; export one of ppo, sac, td3"):
+        PolicyGraph(DQN("MlpPolicy", envs, device="cpu", buffer_size=10), envs)
+
+
+def test_what_remembers_is_refused() -> None:
     envs = VecNormalize(DummyVecEnv([lambda: Somewhere(False)]))
-    with pytest.raises(InvalidInputError, match="TD3Policy cannot be exported; export one of PPO or SAC"):
-        PolicyGraph(TD3("MlpPolicy", envs, device="cpu"), envs)
+    with pytest.raises(InvalidInputError, match=r"remembers the steps before, .* fly it from the folder"):
+        PolicyGraph(RecurrentPPO("MlpLstmPolicy", envs, device="cpu"), envs)
 
 
 @pytest.mark.parametrize("write", [onnx_bytes, torchscript_bytes])

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 from support.sweeps import sweep
-from support.trainings import preset, tiny
+from support.trainings import ALGORITHMS, REMEMBERING, preset, tiny
 from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
 
 from dq_marine.agents.choice import common_environment, make_agents, other_conditions
@@ -43,7 +43,7 @@ def logged_tags(folder: Path) -> dict[str, list[float]]:
     return tags
 
 
-@pytest.mark.parametrize("algorithm", ["ppo", "sac"])
+@pytest.mark.parametrize("algorithm", sweep(ALGORITHMS, plain=["ppo", "sac", "recurrent_ppo"]))
 def test_a_run_from_start_to_evaluation(tmp_path: Path, algorithm: str, console: Console) -> None:
     folder = RunFolder(tmp_path / "run")
     summary = begin_training(folder, tiny(tmp_path, algorithm), seed=1, console=console)
@@ -54,7 +54,7 @@ def test_a_run_from_start_to_evaluation(tmp_path: Path, algorithm: str, console:
     assert latest is not None
     assert best is not None
     assert folder.progress("best").mean_return is not None
-    assert (latest / REPLAY_BUFFER_FILE).exists() == (algorithm == "sac")
+    assert (latest / REPLAY_BUFFER_FILE).exists() == (algorithm in REMEMBERING)
     assert not (best / REPLAY_BUFFER_FILE).exists()
     console.print(summary_table(summary))
     tags = logged_tags(folder.tensorboard)
@@ -106,7 +106,7 @@ def killed_after_first_checkpoint(tmp_path: Path, algorithm: str, folder: RunFol
 
 
 @pytest.mark.parametrize(
-    ("algorithm", "timesteps"), sweep([("ppo", 1024), ("sac", 1024)], plain=[("ppo", 1024)])
+    ("algorithm", "timesteps"), sweep([(one, 1024) for one in ALGORITHMS], plain=[("ppo", 1024)])
 )
 def test_a_killed_run_is_resumed_to_the_same_total(
     tmp_path: Path, algorithm: str, timesteps: int, console: Console
