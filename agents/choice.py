@@ -11,7 +11,7 @@ import gymnasium as gym
 from dq_marine.agents.controllers.baselines import Agent, make_baseline
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT
 from dq_marine.agents.keywords import differences
-from dq_marine.agents.policies import load_policy, policy_name, trained_environment
+from dq_marine.agents.policies import load_policy, policy_names, trained_environment
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.errors import InvalidInputError
 
@@ -44,7 +44,8 @@ def other_conditions(
 ) -> dict[str, dict[str, tuple[Any, Any]]]:
     """Return by policy in what its training's environment differs from one, with both values; None is the default."""
     found = {
-        policy_name(policy): differences(trained_environment(policy), environment) for policy in policies
+        name: differences(trained_environment(policy), environment)
+        for name, policy in zip(policy_names(policies), policies, strict=True)
     }
     return {name: differing for name, differing in found.items() if differing}
 
@@ -52,7 +53,7 @@ def other_conditions(
 def make_agents(
     baselines: Sequence[str], policies: Sequence[Path], env: gym.Env[Any, Any], *, seed: int
 ) -> dict[str, Agent]:
-    """Return agents by name; a policy goes by the name of its folder, or of its file without the ending.
+    """Return agents by name, policies by those of `policy_names`.
 
     Args:
         baselines: names among `dq_marine.agents.controllers.baselines.AGENTS`.
@@ -65,8 +66,7 @@ def make_agents(
         MissingDependencyError: the libraries that a policy or a controller needs are not installed.
     """
     agents = {name: make_baseline(name, env, seed) for name in baselines}
-    for policy in policies:
-        name = policy_name(policy)
+    for name, policy in zip(policy_names(policies), policies, strict=True):
         if name in agents:
             raise InvalidInputError(f"there are two agents called {name!r}; rename {policy}")
         agents[name] = load_policy(policy)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Sequence
 from pathlib import Path
 
 from dq_marine.agents.controllers.baselines import Agent
@@ -17,9 +18,30 @@ def is_exported(policy: Path) -> bool:
     return policy.suffix == ENDING and not policy.is_dir()
 
 
-def policy_name(policy: Path) -> str:
-    """Return what a policy goes by: the name of its folder, or of its file without the ending."""
-    return policy.stem if is_exported(policy) else policy.resolve().name
+def policy_names(policies: Sequence[Path]) -> list[str]:
+    """Return what policies go by: the names of run folders, of exported files, or of repositories on the hub.
+
+    Where two would go by one name, names of folders above, or of owners, are put before all, as many as it takes.
+    """
+    places = [_place(policy) for policy in policies]
+    for depth in range(1, max(map(len, places), default=0) + 1):
+        names = ["-".join(place[-depth:]) for place in places]
+        if len(set(names)) == len(set(places)):
+            return names
+    return [str(policy) for policy in policies]
+
+
+def _place(policy: Path) -> tuple[str, ...]:
+    """Return a policy's name after those of what it lies in."""
+    if not is_exported(policy):
+        return policy.resolve().parts[1:]
+    file = policy.absolute()
+    kind, *owner_and_name = file.parents[2].name.split("--") if len(file.parents) > 2 else [""]
+    if (
+        kind == "models" and file.parents[1].name == "snapshots"
+    ):  # as the hub's client keeps what it downloads
+        return tuple(owner_and_name)
+    return (*file.parent.parts[1:], file.stem)
 
 
 def trained_environment(policy: Path) -> EnvironmentSettings:

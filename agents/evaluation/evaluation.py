@@ -145,14 +145,18 @@ def score_table(scores: Sequence[Score], notes: Sequence[str] = ()) -> Table:
         title=f"{scores[0].episodes} episodes each, the same starts and currents for every agent",
         caption="\n".join(["steady: mean over the last third of an episode", *notes]),
         box=SIMPLE_HEAD,
-        pad_edge=False,
-        collapse_padding=True,
+        show_edge=False,
+        padding=0,  # the box's own blanks between columns are enough
     )
-    table.add_column("agent", style="bold", no_wrap=True)
-    table.add_column("", style="dim")
+    table.add_column(
+        "agent", style="bold", overflow="fold", min_width=6
+    )  # gives way, so that no number is cut
+    table.add_column("", style="dim", no_wrap=True)
     of_metrics = [heading for one in scores[0].metrics.values() for heading in _headings(one.metric)]
     for heading in ("return", *of_metrics, "success", "ended\nearly"):
-        table.add_column(Text(heading), justify="right")  # as text: [m] would be taken for markup
+        table.add_column(
+            Text(heading), justify="right", no_wrap=True
+        )  # as text: [m] would be taken for markup
     for one in scores:
         table.add_row(one.agent, *_cells(one), end_section=True)
     return table

@@ -41,8 +41,9 @@ def test_a_policy_flies_what_it_fits_by_its_own_model(tmp_path: Path) -> None:
     assert result.policy == policy.digest
 
     copied = shutil.copytree(run, tmp_path / "again" / "mine")
+    assert [one.name for one in policies_of([run, copied])] == [f"{tmp_path.name}-mine", "again-mine"]
     with pytest.raises(InvalidInputError, match="two agents called 'mine'"):
-        policies_of([run, copied])
+        policies_of([run, run])
     for model in copied.rglob(MODEL_FILE):
         model.write_bytes(b"another")
     with pytest.raises(InvalidInputError, match="is damaged"):

@@ -50,7 +50,7 @@ def test_what_is_shared_is_what_is_flown(ppo, hub: FakeHub, tmp_path: Path) -> N
     assert fetched(f"hf://me/station@{first}").read_bytes() == ppo.onnx.read_bytes()
     result = run("evaluate", "--policy", f"hf://me/station@{first}", "--episodes", "1")
     assert result.exit_code == 0, result.output
-    assert "policy" in result.stdout
+    assert "station" in result.stdout
     result = run("fly", "--policy", "hf://me/station", "--seconds", "1")
     assert result.exit_code == 1
     assert "policy.onnx is no policy that dq-marine exported" in result.stderr.splitlines()[-1]

@@ -124,6 +124,14 @@ def test_table_names_agents_metrics_and_units() -> None:
     assert "…" not in text
 
 
+def test_a_long_name_gives_way_to_numbers() -> None:
+    text = printed(score_table([score("of_the_second_try" * 5, [episode_of([1.0, 0.5])])]))
+    assert "…" not in text
+    assert "0.500" in text
+    pieces = [line.split()[0] for line in text.splitlines() if line.strip()]
+    assert "".join(pieces).count("of_the_second_try") == 5  # whole, over several lines
+
+
 def test_a_flights_table_names_metrics_reward_terms_and_the_seed() -> None:
     near, effort, idle = ([0.5, 0.25], [-0.5, -0.25], [-0.0, -0.01])
     terms = {"reward/near": np.array(near), "reward/effort": np.array(effort), "reward/idle": np.array(idle)}
