@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import multiprocessing
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dq_marine.agents.choice import make_agents
+from dq_marine.agents.controllers.baselines import MODEL_BASED, make_baseline
 from dq_marine.agents.environments import make_environment, scenario_settings
 from dq_marine.agents.evaluation.episodes import Episode
 from dq_marine.agents.evaluation.evaluation import evaluate
@@ -101,7 +103,7 @@ def entries(
         tasks: names or ids; none for all that ship.
         vehicles: of the catalogue; none for all.
         levels: by name.
-        agents: baselines by name.
+        agents: baselines by name; where one cannot fly it is left out.
         policies: trained ones, each for its task and vehicle, at the levels whose environments it fits.
 
     Raises:
@@ -117,8 +119,9 @@ def entries(
         for name in (one for one, vehicle in loaded.items() if task.unsuitable(vehicle) is None):
             for level in levels:
                 environment = environment_of(Entry(task.id, name, level, ""))
-                able = [one.name for one in policies if one.vehicle == name and one.fits(environment)]
-                found += [Entry(task.id, name, level, agent) for agent in (*agents, *able)]
+                able = able_baselines(agents, environment)
+                able += [one.name for one in policies if one.vehicle == name and one.fits(environment)]
+                found += [Entry(task.id, name, level, agent) for agent in able]
     if not found:
         raise InvalidInputError(
             f"none of the tasks {[task.id for task in chosen]} suits any of the vehicles {list(loaded)}, or none of "
@@ -135,7 +138,7 @@ def scenario_entries(
     Args:
         tasks: names or ids; none for all.
         vehicles: that the scenarios are to be with; none for any.
-        agents: baselines by name.
+        agents: baselines by name; where one cannot fly it is left out.
         policies: trained ones, each in the scenarios that it fits.
 
     Raises:
@@ -147,14 +150,33 @@ def scenario_entries(
             vehicle = str(one.keywords.get("vehicle", task.vehicle))
             if vehicles and vehicle not in vehicles:
                 continue
-            able = [policy.name for policy in policies if policy.fits(scenario_settings(one))]
-            level = str(one.keywords.get("level", ""))
-            found += [Entry(task.id, vehicle, level, agent, one.name) for agent in (*agents, *able)]
+            environment, level = scenario_settings(one), str(one.keywords.get("level", ""))
+            able = able_baselines(agents, environment)
+            able += [policy.name for policy in policies if policy.fits(environment)]
+            found += [Entry(task.id, vehicle, level, agent, one.name) for agent in able]
     if not found:
         raise InvalidInputError(
-            f"no scenarios ship for the tasks {list(tasks)} with the vehicles {list(vehicles)}; give others"
+            f"no scenarios ship for the tasks {list(tasks)} with the vehicles {list(vehicles)} that the agents "
+            f"{[*agents, *(one.name for one in policies)]} can fly; give others"
         )
     return found
+
+
+def able_baselines(names: Sequence[str], environment: EnvironmentSettings) -> list[str]:
+    """Return those of some baselines that can fly in an environment: LQR and MPC cannot in every one.
+
+    Raises:
+        MissingDependencyError: the libraries that LQR and MPC need are not installed.
+    """
+    if MODEL_BASED.keys().isdisjoint(names):
+        return list(names)
+    env, able = make_environment(environment), []
+    for name in names:
+        with contextlib.suppress(InvalidInputError):
+            make_baseline(name, env)
+            able.append(name)
+    env.close()
+    return able
 
 
 def chosen_tasks(names: Sequence[str]) -> list[TaskDefinition]:

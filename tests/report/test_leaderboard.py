@@ -45,6 +45,20 @@ def test_every_task_is_flown_with_every_vehicle_that_it_suits():
     assert len(set(found)) == len(found)
 
 
+def test_agents_with_a_model_fly_where_they_can():
+    found = entries(["TrajectoryTracking"], ["bluerov2", "otter"], ["medium"], ["controller", "lqr", "mpc"])
+    assert [(one.vehicle, one.agent) for one in found] == [
+        ("bluerov2", "controller"),
+        ("bluerov2", "lqr"),
+        ("bluerov2", "mpc"),
+        ("otter", "controller"),
+    ]
+    flown = scenario_entries(["StationKeeping", "TrajectoryTracking"], [], ["lqr"])
+    assert {one.task for one in flown} == {"dq_marine/TrajectoryTracking-v0"}
+    with pytest.raises(InvalidInputError, match=r"the agents \['lqr'\] can fly; give others"):
+        scenario_entries(["Docking"], [], ["lqr"])
+
+
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
