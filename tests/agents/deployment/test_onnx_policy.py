@@ -45,7 +45,7 @@ def test_an_episode_is_that_of_the_run(algorithm: str, request: pytest.FixtureRe
 
 @pytest.mark.parametrize(
     "command",
-    sweep(["fly", "evaluate", "compare", "leaderboard"], plain=["fly", "evaluate", "compare"]),
+    sweep(["fly", "evaluate", "compare", "leaderboard"], plain=["fly"]),
 )
 def test_flying_imports_neither_torch_nor_stable_baselines3(command: str, ppo: Any, tmp_path: Path) -> None:
     arguments = {
