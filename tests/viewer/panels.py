@@ -11,6 +11,9 @@ from viewer.samples import ROV, snapshot
 from dq_marine.viewer import LiveViewer
 from dq_marine.viewer.controls import Group
 
+CAMERA_PLACED = "viewer.camera.matrixWorld.elements[0] !== 0"
+"""In a page. Before its scene has placed it, the camera looks along an axis."""
+
 
 @contextmanager
 def live_panel(groups: Sequence[Group]) -> Iterator[LiveViewer]:

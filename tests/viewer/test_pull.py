@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from viewer.devtools import ALT, CTRL, Page, element, open_page
-from viewer.panels import live_panel, panel_page
+from viewer.panels import CAMERA_PLACED, live_panel, panel_page
 from viewer.samples import ROV, snapshot, yawed
 
 from dq_marine.viewer import LiveViewer
@@ -40,7 +40,7 @@ def viewer() -> Iterator[LiveViewer]:
 @pytest.fixture(scope="module")
 def page(viewer: LiveViewer) -> Iterator[Page]:
     with panel_page(viewer, GROUPS) as shown:
-        shown.wait_until(f"{element('clock')}.textContent === '2.0 s' && glide.at_rest()")
+        shown.wait_until(f"{element('clock')}.textContent === '2.0 s' && glide.at_rest() && {CAMERA_PLACED}")
         yield shown
 
 
@@ -152,7 +152,7 @@ def test_a_page_that_is_loaded_again_or_closed_lets_go(viewer) -> None:
             # Until its script has run, `panel` is the element of that name.
             other.wait_until("!window.old && panel.holds?.length === 1 && panel.connected()")
             other.wait_until("viewer.scene_tree.find(['world', 'vehicle']).object.children.length > 3")
-            other.wait_until("glide.at_rest()")
+            other.wait_until(f"glide.at_rest() && {CAMERA_PLACED}")
             time.sleep(0.3)
             x, y = other.evaluate(MIDDLE)
             viewer.events()

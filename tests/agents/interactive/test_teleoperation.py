@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from viewer.devtools import CTRL, Page, open_page
+from viewer.panels import CAMERA_PLACED
 
 pytestmark = pytest.mark.browser
 
@@ -156,8 +157,6 @@ def test_another_vehicle_task_and_weather_are_chosen_in_the_page() -> None:
 
 
 LINE_SHOWN = "document.getElementById('pull-line').style.display === 'block'"
-# Before the scene has placed it, the camera looks along an axis.
-CAMERA_PLACED = "viewer.camera.matrixWorld.elements[0] !== 0"
 MIDDLE = """pointing.pixels_of(
   viewer.scene_tree.find(["world", "vehicle"]).object.getWorldPosition(viewer.camera.position.clone())
 )"""
