@@ -11,6 +11,8 @@ from pydantic import Field, model_validator
 
 from dq_marine.agents.strict_settings import Count, Fraction, NonNegative, Positive, Settings
 
+EntropyCoefficient = Literal["auto"] | NonNegative
+
 
 class LearnerSettings(Settings):
     """What all algorithms have.
@@ -76,7 +78,7 @@ class SACSettings(ReplaySettings):
 
     name: Literal["sac"]
     tau: Fraction
-    ent_coef: Literal["auto"] | NonNegative
+    ent_coef: EntropyCoefficient
 
 
 class TD3Settings(ReplaySettings):
@@ -101,7 +103,7 @@ class TQCSettings(ReplaySettings):
 
     name: Literal["tqc"]
     tau: Fraction
-    ent_coef: Literal["auto"] | NonNegative
+    ent_coef: EntropyCoefficient
     n_quantiles: Count
     n_critics: Count
     top_quantiles_to_drop_per_net: Annotated[int, Field(ge=0)]
@@ -122,7 +124,7 @@ class CrossQSettings(ReplaySettings):
     OF_THE_POLICY = ("renorm_warmup_steps",)
 
     name: Literal["crossq"]
-    ent_coef: Literal["auto"] | NonNegative
+    ent_coef: EntropyCoefficient
     policy_delay: Count
     renorm_warmup_steps: Annotated[int, Field(ge=0)]
 

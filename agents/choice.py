@@ -11,7 +11,7 @@ import gymnasium as gym
 from dq_marine.agents.controllers.baselines import Agent, make_baseline
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT
 from dq_marine.agents.keywords import differences
-from dq_marine.agents.policies import load_policy, policy_names, trained_environment
+from dq_marine.agents.policies import load_policy, named_policies, trained_environment
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.errors import InvalidInputError
 
@@ -45,7 +45,7 @@ def other_conditions(
     """Return by policy in what its training's environment differs from one, with both values; None is the default."""
     found = {
         name: differences(trained_environment(policy), environment)
-        for name, policy in zip(policy_names(policies), policies, strict=True)
+        for name, policy in named_policies(policies)
     }
     return {name: differing for name, differing in found.items() if differing}
 
@@ -53,7 +53,7 @@ def other_conditions(
 def make_agents(
     baselines: Sequence[str], policies: Sequence[Path], env: gym.Env[Any, Any], *, seed: int
 ) -> dict[str, Agent]:
-    """Return agents by name, policies by those of `policy_names`.
+    """Return agents by name, policies by those of `named_policies`.
 
     Args:
         baselines: names among `dq_marine.agents.controllers.baselines.AGENTS`.
@@ -66,7 +66,7 @@ def make_agents(
         MissingDependencyError: the libraries that a policy or a controller needs are not installed.
     """
     agents = {name: make_baseline(name, env, seed) for name in baselines}
-    for name, policy in zip(policy_names(policies), policies, strict=True):
+    for name, policy in named_policies(policies):
         if name in agents:
             raise InvalidInputError(f"there are two agents called {name!r}; rename {policy}")
         agents[name] = load_policy(policy)

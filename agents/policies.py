@@ -18,8 +18,8 @@ def is_exported(policy: Path) -> bool:
     return policy.suffix == ENDING and not policy.is_dir()
 
 
-def policy_names(policies: Sequence[Path]) -> list[str]:
-    """Return what policies go by: the names of run folders, of exported files, or of repositories on the hub.
+def named_policies(policies: Sequence[Path]) -> list[tuple[str, Path]]:
+    """Return policies with what they go by: names of run folders, of exported files, or of repositories on the hub.
 
     Where two would go by one name, names of folders above, or of owners, are put before all, as many as it takes.
     """
@@ -27,8 +27,8 @@ def policy_names(policies: Sequence[Path]) -> list[str]:
     for depth in range(1, max(map(len, places), default=0) + 1):
         names = ["-".join(place[-depth:]) for place in places]
         if len(set(names)) == len(set(places)):
-            return names
-    return [str(policy) for policy in policies]
+            return list(zip(names, policies, strict=True))
+    return [(str(policy), policy) for policy in policies]
 
 
 def _place(policy: Path) -> tuple[str, ...]:
@@ -36,11 +36,10 @@ def _place(policy: Path) -> tuple[str, ...]:
     if not is_exported(policy):
         return policy.resolve().parts[1:]
     file = policy.absolute()
-    kind, *owner_and_name = file.parents[2].name.split("--") if len(file.parents) > 2 else [""]
-    if (
-        kind == "models" and file.parents[1].name == "snapshots"
-    ):  # as the hub's client keeps what it downloads
-        return tuple(owner_and_name)
+    if len(file.parents) > 2 and file.parents[1].name == "snapshots":  # the hub's client: models--OWNER--NAME
+        kind, *owner_and_name = file.parents[2].name.split("--")
+        if kind == "models":
+            return tuple(owner_and_name)
     return (*file.parent.parts[1:], file.stem)
 
 

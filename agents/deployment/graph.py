@@ -21,6 +21,9 @@ with extra_needed("exporting a policy", "agents"):
     from stable_baselines3.td3.policies import TD3Policy
     from torch import Tensor, nn
 
+EXPORTED = "ppo, sac, td3, tqc or crossq"
+"""Algorithms whose policies can be."""
+
 
 class PolicyGraph(nn.Module):
     """Normalises, decides, and keeps within the limits.
@@ -119,7 +122,7 @@ def _decision(policy: BasePolicy) -> nn.Module:
     if hasattr(policy, "lstm_actor"):
         raise InvalidInputError(
             f"a policy of {type(policy).__name__} remembers the steps before, which an exported file does not; fly it "
-            "from the folder of its run, or export one of ppo, sac, td3, tqc or crossq"
+            f"from the folder of its run, or export one of {EXPORTED}"
         )
     if isinstance(policy, ActorCriticPolicy):
         return _PPODecision(policy)
@@ -129,5 +132,5 @@ def _decision(policy: BasePolicy) -> nn.Module:
     if hasattr(actor, "get_action_dist_params"):
         return _SquashedDecision(actor)
     raise InvalidInputError(
-        f"a policy of {type(policy).__name__} cannot be exported; export one of ppo, sac, td3, tqc or crossq"
+        f"a policy of {type(policy).__name__} cannot be exported; export one of {EXPORTED}"
     )

@@ -148,15 +148,13 @@ def score_table(scores: Sequence[Score], notes: Sequence[str] = ()) -> Table:
         show_edge=False,
         padding=0,  # the box's own blanks between columns are enough
     )
-    table.add_column(
-        "agent", style="bold", overflow="fold", min_width=6
-    )  # gives way, so that no number is cut
+    # Long names take several lines, so that no number is cut.
+    table.add_column("agent", style="bold", overflow="fold", min_width=6)
     table.add_column("", style="dim", no_wrap=True)
     of_metrics = [heading for one in scores[0].metrics.values() for heading in _headings(one.metric)]
     for heading in ("return", *of_metrics, "success", "ended\nearly"):
-        table.add_column(
-            Text(heading), justify="right", no_wrap=True
-        )  # as text: [m] would be taken for markup
+        # As text: [m] would be taken for markup.
+        table.add_column(Text(heading), justify="right", no_wrap=True)
     for one in scores:
         table.add_row(one.agent, *_cells(one), end_section=True)
     return table

@@ -13,7 +13,13 @@ import gymnasium as gym
 
 from dq_marine.agents.environments import make_environments
 from dq_marine.agents.settings import TrainingSettings
-from dq_marine.agents.training.algorithms import Model, keywords_of, model_class, policy_name
+from dq_marine.agents.training.algorithms import (
+    LinearSchedule,  # noqa: F401 - models of earlier runs hold it by its name here
+    Model,
+    keywords_of,
+    model_class,
+    policy_name,
+)
 from dq_marine.agents.training.reward_sums import RewardSums
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
 from dq_marine.agents.training.vec_env import MarineVecEnv

@@ -171,10 +171,10 @@ def _contenders(
     from dq_marine.agents.choice import make_agents
     from dq_marine.agents.evaluation.comparison import Contender
     from dq_marine.agents.keywords import with_changes
-    from dq_marine.agents.policies import policy_names
+    from dq_marine.agents.policies import named_policies
 
     agents: list[tuple[str, list[str], list[Path]]] = [(str(name), [str(name)], []) for name in baselines]
-    agents += [(name, [], [one]) for name, one in zip(policy_names(runs), runs, strict=True)]
+    agents += [(name, [], [one]) for name, one in named_policies(runs)]
     settings = [(name, with_changes(environment, changes)) for name, changes in variants.items()]
     contenders: dict[str, Contender] = {}
     for (flier, chosen, trained), (variant, changed) in product(agents, settings or [("", environment)]):

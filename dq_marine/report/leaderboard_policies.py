@@ -10,7 +10,7 @@ from typing import Any
 
 from dq_marine.agents.controllers.baselines import AGENTS
 from dq_marine.agents.environments import make_environment, marine
-from dq_marine.agents.policies import policy_digest, policy_names, trained_environment
+from dq_marine.agents.policies import named_policies, policy_digest, trained_environment
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
@@ -67,7 +67,7 @@ def policies_of(paths: Sequence[Path]) -> list[Policy]:
         MissingDependencyError: the library that reads an exported policy is not installed.
     """
     found: list[Policy] = []
-    for name, path in zip(policy_names(paths), paths, strict=True):
+    for name, path in named_policies(paths):
         if name in (*AGENTS, *(one.name for one in found)):
             raise InvalidInputError(f"there are two agents called {shown(name)}; rename {path}")
         environment = trained_environment(path)

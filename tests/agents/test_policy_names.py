@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dq_marine.agents.policies import policy_names
+from dq_marine.agents.policies import named_policies
 
 HUB = "/home/me/.cache/huggingface/hub/models--{}--{}/snapshots/0123abcd/policy.onnx"
 
@@ -32,7 +32,8 @@ HUB = "/home/me/.cache/huggingface/hub/models--{}--{}/snapshots/0123abcd/policy.
     ],
 )
 def test_names_are_as_short_as_can_be(paths: list[str], names: list[str]) -> None:
-    assert policy_names([Path(one) for one in paths]) == names
+    given = [Path(one) for one in paths]
+    assert named_policies(given) == list(zip(names, given, strict=True))
 
 
 WORDS = st.sampled_from(["a", "b", "runs", "ppo", "policy.onnx"])
@@ -41,4 +42,4 @@ PATHS = st.lists(WORDS, min_size=1, max_size=4).map(lambda parts: Path(os.sep, *
 
 @given(st.lists(PATHS, max_size=5, unique=True))
 def test_different_policies_have_different_names_or_are_told_by_their_paths(paths: list[Path]) -> None:
-    assert len(set(policy_names(paths))) == len(paths)
+    assert len({name for name, _ in named_policies(paths)}) == len(paths)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import pickle
 import sys
 from pathlib import Path
 
@@ -15,7 +16,14 @@ from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.episodes import fly_episode
 from dq_marine.agents.preset_files import read_settings, validate_settings
 from dq_marine.agents.settings import TrainingSettings
-from dq_marine.agents.training.algorithms import OF_CONTRIB, OWN, keywords_of, model_class, policy_name
+from dq_marine.agents.training.algorithms import (
+    OF_CONTRIB,
+    OWN,
+    LinearSchedule,
+    keywords_of,
+    model_class,
+    policy_name,
+)
 from dq_marine.agents.training.learners import make_model
 from dq_marine.agents.training.run_folder import RunFolder
 from dq_marine.agents.training.trained_policy import TrainedPolicy
@@ -57,6 +65,13 @@ def test_a_model_is_what_its_settings_say(name: str, tmp_path: Path) -> None:
         "net_arch",
         "activation_fn",
     }
+
+
+def test_schedules_of_runs_of_before_are_found_where_they_were() -> None:
+    """Models hold them by the name of the module that they were in; not found, a run goes on at another rate."""
+    schedule = pickle.loads(b"cdq_marine.agents.training.learners\nLinearSchedule\n(F0.5\nF0.25\ntR.")
+    assert schedule == LinearSchedule(0.5, 0.25)
+    assert schedule(0.0) == 0.25
 
 
 def test_a_policy_with_a_memory_remembers_an_episode_and_forgets_it_at_the_next(tmp_path: Path) -> None:
