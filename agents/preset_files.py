@@ -95,4 +95,6 @@ def _line(detail: ErrorDetails) -> str:
     if detail["type"] == "missing":
         return f"{field}: missing; add it"
     problem = detail["msg"].removeprefix("Value error, ")
+    if detail["type"] == "value_error" and isinstance(detail["input"], dict) and field:
+        return f"{field}: {problem}"  # of a whole table, whose own words name the value
     return f"{field} = {detail['input']!r}: {problem}" if field else problem

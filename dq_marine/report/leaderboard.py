@@ -155,8 +155,9 @@ def scenario_entries(
             able += [policy.name for policy in policies if policy.fits(environment)]
             found += [Entry(task.id, vehicle, level, agent, one.name) for agent in able]
     if not found:
+        vessels = f"the vehicles {list(vehicles)}" if vehicles else "any vehicle"
         raise InvalidInputError(
-            f"no scenarios ship for the tasks {list(tasks)} with the vehicles {list(vehicles)} that the agents "
+            f"no scenarios ship for the tasks {list(tasks)} with {vessels} that the agents "
             f"{[*agents, *(one.name for one in policies)]} can fly; give others"
         )
     return found

@@ -114,5 +114,6 @@ def test_there_is_a_policy_for_goals_or_a_refusal(name: str, tmp_path: Path) -> 
 def test_quantiles_that_are_all_dropped_are_refused(tmp_path: Path) -> None:
     content = tiny(tmp_path, "tqc").model_dump()
     content["algorithm"]["top_quantiles_to_drop_per_net"] = 5
-    with pytest.raises(InvalidInputError, match="= 5 leaves none of n_quantiles = 5; drop fewer"):
+    message = r"algorithm\.tqc: top_quantiles_to_drop_per_net = 5 leaves none of n_quantiles = 5; drop fewer$"
+    with pytest.raises(InvalidInputError, match=message):
         validate_settings(content, TrainingSettings, source="a preset")
