@@ -25,6 +25,7 @@ from dq_marine.cli import (
     share,
     tasks,
     train,
+    tune,
     validate,
 )
 from dq_marine.cli.common import HELP_OPTIONS, Commands, console
@@ -64,6 +65,7 @@ app.command(epilog=evaluate.EXAMPLES)(evaluate.evaluate)
 app.command(epilog=compare.EXAMPLES)(compare.compare)
 app.command(epilog=leaderboard.EXAMPLES)(leaderboard.leaderboard)
 app.command(epilog=train.EXAMPLES)(train.train)
+app.command(epilog=tune.EXAMPLES)(tune.tune)
 app.command(epilog=export.EXAMPLES)(export.export)
 app.command(epilog=share.EXAMPLES)(share.share)
 app.command(epilog=tasks.EXAMPLES)(tasks.tasks)

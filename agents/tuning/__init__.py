@@ -1,0 +1,1 @@
+"""Search for hyperparameters with Optuna: what may be changed, one trial, and a study that survives being killed."""

@@ -1,0 +1,229 @@
+"""Search for hyperparameters by Optuna, in one process or several, which goes on where it was stopped.
+
+The first trial is the training as it is, so that the best is no worse. Others are proposed by a tree-structured Parzen
+estimator (Bergstra et al. 2011, NeurIPS), and given up where they are worse than the median of those before (Golovin et
+al. 2017, KDD). The return counts that the run would keep: of its best evaluation.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor, wait
+from dataclasses import dataclass
+from typing import Any
+
+from dq_marine.agents.environments import make_environment
+from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.tuning.search_space import (
+    Dimension,
+    chosen_values,
+    proposals_of,
+    search_space,
+    with_values,
+)
+from dq_marine.agents.tuning.study_folder import LARGEST_SEED, StudyFolder, StudyPlan
+from dq_marine.checks import whole_number
+from dq_marine.errors import InvalidInputError
+from dq_marine.util.extras import extra_needed
+from dq_marine.util.side_by_side import one_thread_each
+
+with extra_needed("a search for hyperparameters", "tune"):
+    import optuna
+    from optuna.trial import FrozenTrial, TrialState
+
+MOST_PROCESSES = 256
+EVALUATIONS = 8
+"""While a trial trains, at least: it may be given up after each."""
+
+UNJUDGED_TRIALS = 4
+"""Before any is given up."""
+
+UNJUDGED_SHARE = 0.25
+"""Of a trial's timesteps, before it may be given up."""
+
+AGAIN = "again"
+"""Attribute of a trial that tries again what a killed process left behind: the number of that trial."""
+
+FAILURES = (InvalidInputError, ValueError, ArithmeticError)
+"""Of one trial, after which the search goes on: values that do not go together, and numbers that are not finite."""
+
+POLL_SECONDS = 1.0
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A trial that ended.
+
+    Attributes:
+        number: it counts up from 0, which is the training as it is.
+        mean_return: of its best evaluation; None if it failed.
+        timesteps: after which it ended.
+        given_up: whether it ended early.
+        values: that it trained with, by the paths of their fields in the settings.
+    """
+
+    number: int
+    mean_return: float | None
+    timesteps: int
+    given_up: bool
+    values: dict[str, Any]
+
+
+def plan_of(settings: TrainingSettings, *, seed: int) -> StudyPlan:
+    """Return a search that begins from a training, evaluated often enough for trials to be given up.
+
+    Raises:
+        InvalidInputError: the seed is too large, or the environment's keywords are wrong.
+    """
+    seed = whole_number("seed", seed, least=0, most=LARGEST_SEED)
+    make_environment(settings.environment).close()
+    every = max(1, min(settings.evaluation.every, settings.timesteps // EVALUATIONS))
+    evaluation = settings.evaluation.model_copy(update={"every": every})
+    return StudyPlan(settings.model_copy(update={"evaluation": evaluation}), seed)
+
+
+def tune(
+    folder: StudyFolder,
+    plan: StudyPlan,
+    *,
+    trials: int,
+    processes: int = 1,
+    after: Callable[[list[Tried]], None] = lambda tried: None,
+) -> list[Tried]:
+    """Search until so many trials have ended in all, and return them, the best first.
+
+    With one process and one seed the trials are the same each time; several propose by what has ended so far.
+
+    Args:
+        folder: of the study: new, or one to go on with.
+        plan: what is searched.
+        trials: in all, with those of before.
+        processes: that train at a time.
+        after: called now and then with all trials that have ended.
+
+    Raises:
+        InvalidInputError: a number is wrong, or another study is in the folder.
+    """
+    trials = whole_number("trials", trials, least=1)
+    processes = whole_number("processes", processes, least=1, most=MOST_PROCESSES)
+    with folder.begun(plan):
+        study = _study(folder, plan, worker=0)
+        _take_up(study, plan)
+        missing = trials - len(_ended(study))
+        if missing > 0 and min(processes, missing) == 1:
+            _work(folder, trials, 0, after)
+        elif missing > 0:
+            _work_side_by_side(folder, trials, min(processes, missing), study, after)
+        return tried(study, plan)
+
+
+def tried(study: optuna.Study, plan: StudyPlan) -> list[Tried]:
+    """Return the trials that ended, the best first, failed ones last."""
+    space = search_space(plan.base)
+    return sorted(
+        (_tried(trial, space) for trial in _ended(study)),
+        key=lambda one: (one.mean_return is None, one.given_up, -(one.mean_return or 0.0), one.number),
+    )
+
+
+def _tried(trial: FrozenTrial, space: dict[str, Dimension]) -> Tried:
+    told = trial.intermediate_values
+    return Tried(
+        number=trial.number,
+        mean_return=None if trial.state is TrialState.FAIL else trial.value,
+        timesteps=max(told, default=0),
+        given_up=trial.state is TrialState.PRUNED,
+        values=chosen_values(space, optuna.trial.FixedTrial(trial.params, trial.number)),
+    )
+
+
+def _study(folder: StudyFolder, plan: StudyPlan, worker: int) -> optuna.Study:
+    """Return the study on disk, made if need be, with a sampler of its own for each worker."""
+    optuna.logging.set_verbosity(optuna.logging.ERROR)
+    warmup = int(UNJUDGED_SHARE * plan.base.timesteps)
+    return optuna.create_study(
+        study_name="study",
+        storage=f"sqlite:///{folder.database.resolve()}",
+        load_if_exists=True,
+        direction="maximize",
+        sampler=optuna.samplers.TPESampler(seed=(plan.seed + worker) % LARGEST_SEED),
+        pruner=optuna.pruners.MedianPruner(n_startup_trials=UNJUDGED_TRIALS, n_warmup_steps=warmup),
+    )
+
+
+def _take_up(study: optuna.Study, plan: StudyPlan) -> None:
+    """Have the training as it is tried first, and again what a killed process left behind."""
+    if not study.trials:
+        study.enqueue_trial(proposals_of(plan.base, search_space(plan.base)))
+    for trial in study.get_trials(deepcopy=False, states=(TrialState.RUNNING,)):
+        study.enqueue_trial(trial.params, user_attrs={AGAIN: trial.number})
+        study.tell(trial.number, state=TrialState.FAIL)
+
+
+def _ended(study: optuna.Study) -> list[FrozenTrial]:
+    """Return the trials that ended, without those that are tried again."""
+    trials = study.get_trials(deepcopy=False)
+    again = {trial.user_attrs.get(AGAIN) for trial in trials}
+    return [trial for trial in trials if trial.state.is_finished() and trial.number not in again]
+
+
+def _work(
+    folder: StudyFolder, trials: int, worker: int, after: Callable[[list[Tried]], None] = lambda tried: None
+) -> None:
+    """Try until so many trials have ended or are being tried by others."""
+    plan = folder.read_plan()
+    space, study = search_space(plan.base), _study(folder, plan, worker)
+
+    def objective(trial: optuna.Trial) -> float:
+        settings = with_values(plan.base, chosen_values(space, trial))
+
+        def tell(timesteps: int, mean_return: float) -> None:
+            trial.report(mean_return, timesteps)
+            if trial.should_prune():
+                raise optuna.TrialPruned
+
+        return _trial_return(settings, plan.seed, folder, trial.number, tell)
+
+    def stop_when_enough(study: optuna.Study, trial: FrozenTrial) -> None:
+        after(tried(study, plan))
+        others = study.get_trials(deepcopy=False, states=(TrialState.RUNNING,))
+        if len(_ended(study)) + len(others) >= trials:
+            study.stop()
+
+    study.optimize(objective, callbacks=[stop_when_enough], catch=FAILURES)
+
+
+def _trial_return(
+    settings: TrainingSettings,
+    seed: int,
+    folder: StudyFolder,
+    number: int,
+    tell: Callable[[int, float], None],
+) -> float:
+    from dq_marine.agents.tuning.trial import trial_return  # here: it imports torch
+
+    return trial_return(settings, seed=seed, logs=folder.tensorboard / f"trial{number:04d}", tell=tell)
+
+
+def _work_side_by_side(
+    folder: StudyFolder,
+    trials: int,
+    processes: int,
+    study: optuna.Study,
+    after: Callable[[list[Tried]], None],
+) -> None:
+    """Have several processes work, and say now and then what has ended."""
+    plan, context = folder.read_plan(), multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, mp_context=context) as pool:
+        with one_thread_each():
+            working: set[Any] = {pool.submit(_work, folder, trials, worker) for worker in range(processes)}
+        told = 0
+        while working:
+            done, working = wait(working, timeout=POLL_SECONDS)
+            for one in done:
+                one.result()
+            ended = tried(study, plan)
+            if len(ended) > told:
+                told = len(ended)
+                after(ended)
