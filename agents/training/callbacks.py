@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from rich.progress import Progress as ProgressBar
@@ -20,6 +20,13 @@ from dq_marine.util.extras import extra_needed
 with extra_needed("training", "agents"):
     from stable_baselines3.common.callbacks import BaseCallback, EvalCallback
     from stable_baselines3.common.vec_env import VecEnv
+
+
+class Saves(Protocol):
+    """Takes models to save."""
+
+    def save(self, kind: Kind, model: Model, mean_return: float | None = None) -> None:
+        """Save a snapshot, or do not."""
 
 
 class Saver:
@@ -74,7 +81,7 @@ class Evaluations(EvalCallback):
     """
 
     def __init__(
-        self, envs: VecEnv, saver: Saver, *, every: int, training_envs: int, seed: int, best: float | None
+        self, envs: VecEnv, saver: Saves, *, every: int, training_envs: int, seed: int, best: float | None
     ) -> None:
         """Take environments, one for each episode.
 
@@ -118,7 +125,7 @@ class _SaveBest(BaseCallback):
 
     parent: Evaluations
 
-    def __init__(self, saver: Saver) -> None:
+    def __init__(self, saver: Saves) -> None:
         super().__init__()
         self._saver = saver
 

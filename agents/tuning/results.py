@@ -1,4 +1,4 @@
-"""What a search found, as files beside it: every trial as CSV, the best as a preset, hyperparameters against returns."""
+"""What a search found, as files beside it: all trials as CSV, the best as a preset, hyperparameters against returns."""
 
 from __future__ import annotations
 
@@ -95,7 +95,8 @@ def _picture(trials: Sequence[Tried], names: Sequence[str]) -> Any:
         axis.set_xlabel(name.split(".")[1].replace("_", " "))
     for axis in axes[len(names) :]:
         axis.set_visible(False)
-    axes[0].legend(fontsize="small")
+    if any(one.given_up for one in told):
+        axes[0].legend(fontsize="small")
     for axis in axes[::COLUMNS]:
         axis.set_ylabel("mean return")
     return figure
@@ -107,4 +108,3 @@ def _positions(values: Sequence[Any]) -> tuple[list[float], list[str]]:
         return [float(value) for value in values], []
     labels = sorted({str(_cell(value)) for value in values})
     return [float(labels.index(str(_cell(value)))) for value in values], labels
-

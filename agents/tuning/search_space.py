@@ -1,8 +1,8 @@
 """What a search may change of a training, and between which bounds.
 
 A dimension stands by the path of its field in the settings, as `algorithm.learning_rate`. Two are searched by other
-numbers than those of the settings: gamma by the control periods that it looks ahead, 1 / (1 - gamma), because a step from
-0.98 to 0.99 doubles them; and the last learning rate keeps its ratio to the first.
+numbers than those of the settings: gamma by the control periods that it looks ahead, 1 / (1 - gamma), because a step
+from 0.98 to 0.99 doubles them; and the last learning rate keeps its ratio to the first.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 from dq_marine.agents.preset_files import validate_settings
 from dq_marine.agents.settings import TrainingSettings
@@ -107,13 +107,16 @@ class OneOf:
         return self if value in map(_listed, self.values) else OneOf((*self.values, value))
 
 
-COMMON = {
+Space: TypeAlias = dict[str, Dimension]
+"""What may be changed, by the paths of the fields."""
+
+COMMON: Space = {
     "algorithm.learning_rate": Real(1e-4, 3e-3, log=True),
     "algorithm.gamma": LookAhead(10.0, 300.0),
     "network.layers": OneOf(([64, 64], [128, 128], [256, 256])),
 }
 
-ROLLOUT = {
+ROLLOUT: Space = {
     "algorithm.n_steps": OneOf((32, 64, 128, 256)),
     "algorithm.minibatches": OneOf((2, 4, 8)),
     "algorithm.n_epochs": Whole(3, 15),
@@ -123,15 +126,15 @@ ROLLOUT = {
     "algorithm.log_std_init": Real(-2.0, 0.0),
 }
 
-REPLAY = {
+REPLAY: Space = {
     "algorithm.batch_size": OneOf((128, 256, 512)),
     "algorithm.gradient_steps": Whole(1, 8),
 }
 
-TARGETS = {"algorithm.tau": Real(0.002, 0.05, log=True)}
-ENTROPY = {"algorithm.ent_coef": Real(1e-3, 0.1, log=True)}
+TARGETS: Space = {"algorithm.tau": Real(0.002, 0.05, log=True)}
+ENTROPY: Space = {"algorithm.ent_coef": Real(1e-3, 0.1, log=True)}
 
-SPACES: Mapping[str, Mapping[str, Dimension]] = {
+SPACES: dict[str, Space] = {
     "ppo": ROLLOUT,
     "recurrent_ppo": ROLLOUT | {"algorithm.lstm_hidden_size": OneOf((32, 64, 128))},
     "sac": REPLAY | TARGETS | ENTROPY,
@@ -148,12 +151,12 @@ SPACES: Mapping[str, Mapping[str, Dimension]] = {
 """What may be changed of each algorithm, beyond what is common to all."""
 
 
-def search_space(base: TrainingSettings) -> dict[str, Dimension]:
+def search_space(base: TrainingSettings) -> Space:
     """Return what may be changed of a training, the values that it has among the choices.
 
     An entropy coefficient of "auto" is left to the algorithm.
     """
-    space: dict[str, Dimension] = {}
+    space: Space = {}
     content = base.model_dump(mode="json")
     for name, dimension in {**COMMON, **SPACES[base.algorithm.name]}.items():
         value = _at(content, name)
@@ -163,13 +166,13 @@ def search_space(base: TrainingSettings) -> dict[str, Dimension]:
     return space
 
 
-def proposals_of(base: TrainingSettings, space: Mapping[str, Dimension]) -> dict[str, Any]:
+def proposals_of(base: TrainingSettings, space: Space) -> dict[str, Any]:
     """Return what a chooser would have to propose for a training as it is."""
     content = base.model_dump(mode="json")
     return {name: dimension.proposal(_at(content, name)) for name, dimension in space.items()}
 
 
-def chosen_values(space: Mapping[str, Dimension], chooser: Chooser) -> dict[str, Any]:
+def chosen_values(space: Space, chooser: Chooser) -> dict[str, Any]:
     """Return what a chooser proposes, as the settings have it, by the paths of the fields."""
     return {name: dimension.chosen(name, chooser) for name, dimension in space.items()}
 

@@ -1,12 +1,12 @@
 """The folder of a search.
 
-    study.json     what is searched: the training that it begins from, its seed, versions
-    study.db       every trial, by Optuna, in SQLite
-    tensorboard/   logs of the trials
-    trials.csv     every trial that ended, the best first
-    preset.toml    the best trial as a preset: `dq-marine train --preset`
-    trials.png     every hyperparameter against the return
-    study.lock     process number of the search in progress, which keeps others out
+study.json     what is searched: the training that it begins from, its seed, versions
+study.db       every trial, by Optuna, in SQLite
+tensorboard/   logs of the trials
+trials.csv     every trial that ended, the best first
+preset.toml    the best trial as a preset: `dq-marine train --preset`
+trials.png     every hyperparameter against the return
+study.lock     process number of the search in progress, which keeps others out
 """
 
 from __future__ import annotations
@@ -88,9 +88,7 @@ class StudyFolder:
             if self._plan_file.is_file():
                 self._check_same(plan)
             else:
-                write_json(
-                    self._plan_file, {"seed": plan.seed, "base": plan.base.model_dump(mode="json")}
-                )
+                write_json(self._plan_file, {"seed": plan.seed, "base": plan.base.model_dump(mode="json")})
             yield
         finally:
             lock.release()

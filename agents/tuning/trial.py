@@ -9,6 +9,7 @@ from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.algorithms import Model
 from dq_marine.agents.training.callbacks import Evaluations
 from dq_marine.agents.training.learners import environments_of, make_evaluation_envs, make_model
+from dq_marine.agents.training.run_folder import Kind
 from dq_marine.agents.training.training import EVALUATION_SEED
 from dq_marine.util.extras import extra_needed
 
@@ -20,7 +21,7 @@ with extra_needed("training", "agents"):
 class _KeepsNothing:
     """Takes models to save, as `callbacks.Saver` does, and saves none."""
 
-    def save(self, kind: str, model: Model, mean_return: float | None = None) -> None:
+    def save(self, kind: Kind, model: Model, mean_return: float | None = None) -> None:
         """Do nothing."""
 
 

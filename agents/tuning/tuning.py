@@ -16,7 +16,7 @@ from typing import Any
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.tuning.search_space import (
-    Dimension,
+    Space,
     chosen_values,
     proposals_of,
     search_space,
@@ -127,7 +127,7 @@ def tried(study: optuna.Study, plan: StudyPlan) -> list[Tried]:
     )
 
 
-def _tried(trial: FrozenTrial, space: dict[str, Dimension]) -> Tried:
+def _tried(trial: FrozenTrial, space: Space) -> Tried:
     told = trial.intermediate_values
     return Tried(
         number=trial.number,

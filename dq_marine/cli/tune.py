@@ -33,7 +33,10 @@ SHOWN = 5
 
 def tune(
     out: Annotated[
-        Path, typer.Option("--out", help="Folder of the study; one that is there goes on.", show_default="required")
+        Path,
+        typer.Option(
+            "--out", help="Folder of the study; one that is there goes on.", show_default="required"
+        ),
     ],
     trials: Annotated[int, typer.Option("--trials", min=1, help="In all, with those of before.")] = 30,
     algorithm: Annotated[
@@ -84,15 +87,13 @@ def tune(
 
     from dq_marine.agents.tuning.results import write_results
     from dq_marine.agents.tuning.study_folder import StudyFolder
-    from dq_marine.agents.tuning.tuning import Tried, plan_of
+    from dq_marine.agents.tuning.tuning import plan_of
     from dq_marine.agents.tuning.tuning import tune as search
     from dq_marine.backend.workers import usable_cores
     from dq_marine.cli.agent_options import EnvironmentOptions, requested_training
 
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
-    settings = requested_training(
-        options, algorithm=algorithm, preset=preset, timesteps=timesteps, envs=envs
-    )
+    settings = requested_training(options, algorithm=algorithm, preset=preset, timesteps=timesteps, envs=envs)
     folder, plan = StudyFolder(out), plan_of(settings, seed=seed)
     columns = (
         TextColumn("[bold]{task.description}"),
@@ -114,7 +115,8 @@ def tune(
         except KeyboardInterrupt:
             bar.stop()
             console.print(
-                f"Stopped; what was tried is kept in {folder.path}. Go on with the same command.", soft_wrap=True
+                f"Stopped; what was tried is kept in {folder.path}. Go on with the same command.",
+                soft_wrap=True,
             )
             raise typer.Exit(130) from None
     written = write_results(folder, plan, found)
@@ -122,7 +124,8 @@ def tune(
     console.print(f"Wrote {', '.join(map(str, written))}", soft_wrap=True)
     if folder.preset in written:
         console.print(
-            f"Next: dq-marine train --run runs/tuned --preset {folder.preset} --seed {seed + 1}", soft_wrap=True
+            f"Next: dq-marine train --run runs/tuned --preset {folder.preset} --seed {seed + 1}",
+            soft_wrap=True,
         )
 
 

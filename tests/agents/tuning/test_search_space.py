@@ -55,7 +55,9 @@ def test_the_preset_as_it_is_can_be_proposed(name: str) -> None:
     chosen = chosen_settings(base, space, Fixed(proposals_of(base, space)))
     assert chosen.network == base.network
     for field, value in base.algorithm.model_dump().items():
-        assert getattr(chosen.algorithm, field) == (pytest.approx(value) if isinstance(value, float) else value)
+        assert getattr(chosen.algorithm, field) == (
+            pytest.approx(value) if isinstance(value, float) else value
+        )
 
 
 def test_what_is_beyond_the_bounds_begins_at_the_bound(tmp_path: Path) -> None:

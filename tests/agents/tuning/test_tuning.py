@@ -95,7 +95,11 @@ def test_several_processes_try_as_many_as_were_asked_for(tmp_path: Path) -> None
     plan = plan_of(tiny(tmp_path, "ppo", 64), seed=3)
     told: list[int] = []
     found = tune(
-        StudyFolder(tmp_path / "study"), plan, trials=5, processes=2, after=lambda tried: told.append(len(tried))
+        StudyFolder(tmp_path / "study"),
+        plan,
+        trials=5,
+        processes=2,
+        after=lambda tried: told.append(len(tried)),
     )
     assert sorted(one.number for one in found) == list(range(5))
     assert told[-1] == 5
@@ -111,7 +115,7 @@ def test_results_are_read_back(tmp_path: Path, algorithm: str) -> None:
     assert folder.picture.stat().st_size > 10_000
     best = read_settings(folder.preset, TrainingSettings)
     assert best == with_values(plan.base, found[0].values)
-    rows = list(csv.DictReader(folder.trials.open(encoding="utf-8")))
+    rows = list(csv.DictReader(folder.trials.read_text(encoding="utf-8").splitlines()))
     assert [int(row["trial"]) for row in rows] == [one.number for one in found]
     for row, one in zip(rows, found, strict=True):
         for name, value in one.values.items():
@@ -121,7 +125,7 @@ def test_results_are_read_back(tmp_path: Path, algorithm: str) -> None:
 def test_without_a_trial_that_ended_there_is_no_preset(tmp_path: Path) -> None:
     folder, plan = StudyFolder(tmp_path), plan_of(tiny(tmp_path, "ppo", 64), seed=0)
     assert write_results(folder, plan, []) == [folder.trials]
-    values = {name: None for name in search_space(plan.base)}
+    values = dict.fromkeys(search_space(plan.base))
     values["network.layers"], values["algorithm.learning_rate"] = [8], 0.1
     failed = Tried(0, None, 0, False, values)
     assert write_results(folder, plan, [failed]) == [folder.trials]
@@ -133,7 +137,9 @@ def test_another_study_in_the_folder_is_named_and_left(tmp_path: Path) -> None:
     folder, plan = StudyFolder(tmp_path / "study"), plan_of(tiny(tmp_path, "ppo", 64), seed=0)
     tune(folder, plan, trials=1)
     other = plan_of(tiny(tmp_path, "ppo", 128), seed=1)
-    with pytest.raises(InvalidInputError, match=r"holds another study: .*seed is 0, not 1; timesteps is 64, not 128"):
+    with pytest.raises(
+        InvalidInputError, match=r"holds another study: .*seed is 0, not 1; timesteps is 64, not 128"
+    ):
         tune(folder, other, trials=2)
     assert len(tune(folder, plan, trials=1)) == 1
 
