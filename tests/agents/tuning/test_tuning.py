@@ -68,6 +68,7 @@ def test_the_worse_are_given_up_and_failures_do_not_end_the_search(
     assert found[-1].number == 2
 
 
+@pytest.mark.sweep
 def test_what_a_killed_search_left_behind_is_tried_again(tmp_path: Path) -> None:
     folder = StudyFolder(tmp_path / "study")
     arguments = ["--out", str(folder.path), "--preset", str(preset(tmp_path, "ppo", 4096)), "--trials", "3"]
@@ -106,7 +107,7 @@ def test_several_processes_try_as_many_as_were_asked_for(tmp_path: Path) -> None
     assert told == sorted(told)
 
 
-@pytest.mark.parametrize("algorithm", ["ppo", "sac"])
+@pytest.mark.parametrize("algorithm", [pytest.param("ppo", marks=pytest.mark.sweep), "sac"])
 def test_results_are_read_back(tmp_path: Path, algorithm: str) -> None:
     folder, plan = StudyFolder(tmp_path / "study"), plan_of(tiny(tmp_path, algorithm, 64), seed=0)
     found = tune(folder, plan, trials=2)
