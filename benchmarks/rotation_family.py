@@ -16,6 +16,7 @@ in NumPy, for accuracy only; what each costs is said by the operations that it n
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Callable
 
 import numpy as np
@@ -157,6 +158,9 @@ def cases() -> dict[str, tuple[Array, Array, float, float]]:
 
 def main() -> None:
     """Run all on all and print the table."""
+    argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    ).parse_args()
     print(f"{'attitude error [rad]':24}{'h':>6}{'sin':>10}{'mrp':>10}{'tan':>10}{'log':>10}")
     for name, (m, velocity, duration, h) in cases().items():
         count = round(duration / h)

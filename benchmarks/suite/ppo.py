@@ -6,8 +6,9 @@ import statistics
 from pathlib import Path
 from typing import Any
 
+from dq_marine.agents.algorithm_settings import PPOSettings
 from dq_marine.agents.preset_files import read_settings
-from dq_marine.agents.settings import PPOSettings, TrainingSettings
+from dq_marine.agents.settings import TrainingSettings
 from dq_marine.errors import MissingDependencyError
 from dq_marine.report.plan import Row, distinct
 from dq_marine.report.presentation import three_digits
