@@ -65,6 +65,12 @@ def test_meshcat_scenery_is_hidden(page: Page) -> None:
         assert page.node(path, "visible") is False
 
 
+def test_the_sun_casts_no_shadow(page: Page) -> None:
+    """It would on what is near the origin alone, and drawing it takes long."""
+    assert page.node("/Lights/sun", "children[0].isDirectionalLight") is True
+    assert page.node("/Lights/sun", "children[0].castShadow") is False
+
+
 def test_what_cannot_be_seen_is_not_drawn(viewer: LiveViewer, page: Page) -> None:
     """Its node stays visible, which a person may switch off and on."""
     for time, force in ((1.1, 40.0), (1.2, 0.0), (1.3, 40.0)):

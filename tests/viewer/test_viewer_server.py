@@ -21,7 +21,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from dq_marine.viewer import LiveViewer, ViewerError
-from dq_marine.viewer.transport.server_process import ServerProcess
+from dq_marine.viewer.transport.server_process import STARTER, ServerProcess
 
 LOOPBACK_IN_PROC = "0100007F"
 
@@ -122,6 +122,20 @@ def test_a_forgotten_viewer_ends_its_server() -> None:
     del viewer
     gc.collect()
     assert not alive(pid)
+
+
+def test_the_server_starts_without_what_it_does_not_need() -> None:
+    script = (
+        "import runpy, sys\n"
+        "try:\n"
+        "    runpy.run_path(sys.argv[1], run_name='__main__')\n"
+        "except TypeError:  # nobody told it the secrets\n"
+        "    assert 'tornado' in sys.modules\n"
+        "    print(*sorted({'numpy', 'gymnasium', 'numba', 'IPython'} & sys.modules.keys()))\n"
+    )
+    command = [sys.executable, "-c", script, str(STARTER)]
+    result = subprocess.run(command, input="{}", capture_output=True, text=True, timeout=600)
+    assert (result.stdout, result.stderr) == ("\n", "")
 
 
 @pytest.mark.parametrize("end", ["sys.exit()", "os.kill(os.getpid(), signal.SIGKILL)"])

@@ -123,8 +123,7 @@ class HeadlessBrowser:
         """
         executable = find_chromium()
         remove_abandoned_profiles()
-        self.profile = Path(tempfile.mkdtemp(prefix=PROFILE_PREFIX))
-        lock = FileLock(self.profile / OWNER_FILE)
+        self.profile, lock = new_profile()
         # The address is a secret, and arguments can be read by every user of the computer; this folder cannot.
         start = self.profile / "start.html"
         start.write_text(f"<script>location.replace({json.dumps(url)})</script>", encoding="utf-8")
@@ -162,10 +161,19 @@ class HeadlessBrowser:
         self._stop()
 
 
+def new_profile() -> tuple[Path, FileLock]:
+    """Return a folder for a profile, and the lock that its owner holds as long as it lives."""
+    profile = Path(tempfile.mkdtemp(prefix=PROFILE_PREFIX))
+    # The lock gets its name once it is held: in between, other processes would take the profile for an abandoned one.
+    lock = FileLock(profile / f"{OWNER_FILE}.new")
+    (profile / f"{OWNER_FILE}.new").rename(profile / OWNER_FILE)
+    return profile, lock
+
+
 def remove_abandoned_profiles() -> None:
     """Remove what browsers left behind whose owner was killed before it could end them.
 
-    An owner holds a lock in its profile as long as it lives. A profile without one has only just been made.
+    A profile without a lock has only just been made.
     """
     for profile in Path(tempfile.gettempdir()).glob(f"{PROFILE_PREFIX}*"):
         if (profile / OWNER_FILE).is_file() and is_free(profile / OWNER_FILE):

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import struct
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
 from dq_marine.viewer.libraries import drawing_library
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 HEAD = struct.Struct("<4sII")
 MARK = b"RGBA"
@@ -25,6 +27,8 @@ def is_picture(message: str | bytes) -> bool:
 
 def pixels_of(picture: bytes) -> NDArray[np.uint8]:
     """Return red, green and blue of every pixel from the top, shape (height, width, 3)."""
+    import numpy as np  # here: the server knows a picture when it sees one, and needs no NumPy for that
+
     _, width, height = HEAD.unpack_from(picture)
     # Pillow turns rows over and drops what is no colour in less than half of the time that NumPy takes.
     return np.array(

@@ -1,9 +1,9 @@
 """The viewer's server: meshcat's bridge from ZeroMQ to web pages, for this computer only.
 
-It runs as a process of its own, `python -m dq_marine.viewer.transport.server`. Its parent writes one line of JSON to
-its standard input, the secrets and the socket for web pages, which the parent has opened, so that a page may ask before
-the server is ready; it prints one line of JSON with the address for ZeroMQ, and ends when its standard input does, that
-is, when its parent is gone.
+It runs as a process of its own (`start_server.py`). Its parent writes one line of JSON to its standard input, the
+secrets and the socket for web pages, which the parent has opened, so that a page may ask before the server is ready; it
+prints one line of JSON with the address for ZeroMQ, and ends when its standard input does, that is, when its parent is
+gone.
 
 meshcat's own server listens on every network interface and obeys whoever connects. This one listens on the loopback
 address, on free ports, and two secrets keep out what else can reach those: other users' programs, and pages from
@@ -29,15 +29,15 @@ import tornado.routing
 import tornado.web
 import umsgpack
 import zmq
-from zmq.eventloop.zmqstream import ZMQStream
-
-from dq_marine.viewer.libraries import meshcat_page_folder
-from dq_marine.viewer.transport.bridge import (
+from meshcat.servers.zmqserver import (
     MESHCAT_COMMANDS,
     StaticFileHandlerNoCache,
     WebSocketHandler,
     ZMQWebSocketBridge,
 )
+from zmq.eventloop.zmqstream import ZMQStream
+
+from dq_marine.viewer.libraries import meshcat_page_folder
 from dq_marine.viewer.transport.loopback import LOOPBACK
 from dq_marine.viewer.transport.pages import CAPTURE_PAGE, LIVE_PAGE
 from dq_marine.viewer.transport.panel_socket import POLICY_VIOLATION, PanelHub, PanelSocket

@@ -26,6 +26,8 @@ from dq_marine.viewer.transport.picture import pixels_of
 
 ANY_FREE_PORT = 0
 
+STARTER = Path(__file__).with_name("start_server.py")
+
 START_TIMEOUT = 30.0
 REPLY_TIMEOUT = 10.0
 STOP_TIMEOUT = 2.0
@@ -172,8 +174,8 @@ def _start(door: socket.socket) -> subprocess.Popen[bytes]:
     # -P keeps the current folder, whatever lies in it, off the server's module path.
     package_root = str(Path(__file__).parents[3])
     search_path = [package_root, *filter(None, [os.environ.get("PYTHONPATH")])]
-    return subprocess.Popen(
-        [sys.executable, "-P", "-W", "ignore", "-m", "dq_marine.viewer.transport.server"],
+    return subprocess.Popen(  # noqa: S603 - this interpreter runs a file of this package
+        [sys.executable, "-P", "-W", "ignore", str(STARTER)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
