@@ -142,6 +142,12 @@ def _content(mesh: Path, hull: Hull, choices: Choices, form: Form, drag: Drag) -
             "water_density": choices.density,
         },
         "dimensions": dimensions | {"shape": form.shape},
+        "appearance": {
+            "file": str(mesh.resolve()),
+            "unit": choices.unit,
+            "axes": choices.axes,
+            "origin": rounded(-hull.origin),
+        },
     }
     return content | (
         {"gravity": choices.gravity} if choices.gravity != Vehicle.model_fields["gravity"].default else {}
@@ -161,6 +167,7 @@ def _reasons(choices: Choices, drag: Drag, panels: int) -> dict[str, Sequence[st
         "hydrostatics": (
             "of heave, roll and pitch about the body origin: integrals over the mesh's triangles, and the weight",
         ),
+        "appearance": ("the mesh itself, which is drawn where the extra `models` is installed",),
         "dimensions": (
             f"the box around the mesh; shape {'given' if choices.shape else 'guessed from its proportions'}",
         ),

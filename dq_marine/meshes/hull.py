@@ -39,6 +39,7 @@ class Hull:
         waterline: z of the still waterline [m]; None under water.
         waterplane: hydrostatics about the body origin; None under water.
         turned: triangles of the mesh that had to be turned.
+        origin: the body origin in the mesh, turned forward-starboard-down [m], shape (3,).
     """
 
     surface: Surface
@@ -50,6 +51,7 @@ class Hull:
     waterline: float | None
     waterplane: Flotation | None
     turned: int
+    origin: Array
 
     @property
     def draft(self) -> float | None:
@@ -76,7 +78,7 @@ def read_hull(mesh: Path, choices: Choices) -> Hull:
     moved = surface.moved(np.eye(3), 1.0, -origin)
     solid = enclosed(moved.corners)
     center = without_noise(solid.center, moved)
-    return Hull(moved, solid, moved.corners, solid.volume, center, mass, None, None, turned)
+    return Hull(moved, solid, moved.corners, solid.volume, center, mass, None, None, turned, origin)
 
 
 def without_noise(place: Array, surface: Surface) -> Array:
@@ -112,7 +114,7 @@ def _afloat(surface: Surface, turned: int, name: str, choices: Choices) -> Hull:
     mass = choices.mass or choices.density * plane.volume
     about = Flotation(plane.volume, center, plane.area, plane.first_moments, plane.second_moments)
     wet_body = wet + waterline - origin
-    return Hull(moved, enclosed(moved.corners), wet_body, plane.volume, center, mass, level, about, turned)
+    return Hull(moved, enclosed(moved.corners), wet_body, plane.volume, center, mass, level, about, turned, origin)
 
 
 def _check_size(surface: Surface, name: str, choices: Choices) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.algebra.spatial import Spatial
-from dq_marine.checks import one_of
+from dq_marine.checks import one_of, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.actuation import NO_ACTUATION
 from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
@@ -47,11 +47,12 @@ def check_method(scheme: str, order: int) -> None:
         InvalidInputError: with the reason.
     """
     one_of("scheme", scheme, SCHEMES)
-    one_of("order", order, ORDERS)
     if scheme == "gauss" and order not in COLLOCATED[scheme].orders:
         raise InvalidInputError(
-            f"order = {order}, but scheme = 'gauss' has orders 6 and 8 alone; give one of them, or another scheme"
+            f"order = {shown(order)}, but scheme = 'gauss' has orders 6 and 8 alone; give one of them, or another "
+            "scheme"
         )
+    one_of("order", order, ORDERS)
 
 
 def compiled_forms(forces: tuple[ForceTerm, ...]) -> tuple[Callable[..., Spatial], ...]:

@@ -96,4 +96,18 @@ def _read(path: Path, changes: Mapping[str, Any] = NOTHING) -> Vehicle:
             content["radiation"] = read_radiation(path.parent / beside)
         except (OSError, ValueError, csv.Error) as error:
             raise VehicleFileError(f"{path}: radiation = {beside!r} cannot be read: {error}") from error
+    _find_mesh(content.get("appearance"), path)
     return validated(varied(content, changes), str(path), VehicleFileError)
+
+
+def _find_mesh(appearance: Any, path: Path) -> None:
+    """Replace the path of a mesh from a vehicle's file by one from anywhere."""
+    if not isinstance(appearance, dict) or not isinstance(appearance.get("file"), str):
+        return  # nothing, or something that validation names
+    beside = path.parent / appearance["file"]
+    if existing_file("appearance.file", beside) is None:
+        raise VehicleFileError(
+            f"{path}: appearance.file = {shown(appearance['file'])}: there is no {shown(str(beside))}; "
+            "give the path of a mesh from the vehicle's file"
+        )
+    appearance["file"] = str(beside.resolve())

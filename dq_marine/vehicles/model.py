@@ -36,6 +36,7 @@ from dq_marine.physics.hydrostatics.tables import HullBox, Hydrostatics, Payload
 from dq_marine.physics.manoeuvring.tables import Manoeuvring
 from dq_marine.physics.matrices import skew
 from dq_marine.physics.waves.radiation import RadiationTable
+from dq_marine.vehicles.appearance import Appearance
 from dq_marine.vehicles.checks.plausibility import check_vehicle
 from dq_marine.vehicles.validity import Validity
 
@@ -144,6 +145,7 @@ class Vehicle(Table):
         radiation: added mass and damping by frequency, for the forces of seas and for radiation memory; a file names a
             CSV file beside it.
         validity: the motions and seas that the numbers hold for; None where it is not known.
+        appearance: a mesh to draw; None for a picture by the kind of hull.
         gravity: g [m/s^2], for weight and buoyancy, and for the lengths of waves; a stiffness in N/m holds for it.
     """
 
@@ -168,6 +170,7 @@ class Vehicle(Table):
     payloads: tuple[Payload, ...] = ()
     radiation: RadiationTable | None = None
     validity: Validity | None = None
+    appearance: Appearance | None = None
     gravity: float = GRAVITY
 
     @model_validator(mode="before")

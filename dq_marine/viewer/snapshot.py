@@ -17,6 +17,7 @@ from dq_marine.checks import finite_array, finite_number, shown, unit_quaternion
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.waves.sea import Sea
 from dq_marine.task.things import Beam, Form, Thing
+from dq_marine.vehicles.appearance import Appearance
 
 FloatArray = NDArray[np.float64]
 ShapeKind = Literal["open_frame", "torpedo", "ellipsoid", "catamaran", "ship"]
@@ -175,6 +176,7 @@ class Shape:
         kind: `open_frame` (a work-class or inspection ROV), `torpedo` (an AUV: a body of revolution with
             fins), `ellipsoid`, or afloat `catamaran` or `ship`.
         draft: depth of the keel below the origin [m]; None for half the height.
+        appearance: a mesh to draw in place of the kind's picture and thrusters.
 
     Raises:
         InvalidInputError: a dimension or force that is not positive, or an unknown kind.
@@ -188,6 +190,7 @@ class Shape:
     kind: ShapeKind = "open_frame"
     draft: float | None = None
     max_thrust: float | None = None
+    appearance: Appearance | None = None
 
     def __post_init__(self) -> None:
         for name in ("length", "width", "height", "max_force", "draft", "max_thrust"):

@@ -39,6 +39,7 @@ def shape_of(vehicle: Vehicle) -> Shape:
         draft=size.draft,
         max_force=float(vehicle.wrench_limits[:3].max()) or 1.0,
         max_thrust=_largest_thrust(vehicle),
+        appearance=vehicle.appearance,
         thrusters=tuple(
             Thruster(np.array(position), np.array(direction))
             for position, direction in (

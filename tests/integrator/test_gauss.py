@@ -248,5 +248,7 @@ def test_sweeps_that_overflow_are_not_taken_for_converged():
 def test_what_it_does_not_have_is_refused_with_the_reason():
     with pytest.raises(InvalidInputError, match=r"order = 2, but scheme = 'gauss' has orders 6 and 8 alone"):
         Scene(scheme="gauss", order=2)
+    with pytest.raises(InvalidInputError, match=r"order = 7, but scheme = 'gauss' has orders 6 and 8 alone"):
+        Scene(scheme="gauss", order=7)
     with pytest.raises(InvalidInputError, match=r"order = 6, but with damping .* Radau's .* give order=8"):
         Scene(scheme="gauss", order=6)

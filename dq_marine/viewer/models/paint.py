@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from dq_marine.viewer.transport.three_json import Painted
+from dq_marine.viewer.snapshot import FloatArray
+from dq_marine.viewer.transport.three_json import Painted, rgb
 
 YELLOW = 0xF7BE0A
 DARK = 0x2B323A
@@ -27,6 +28,11 @@ def tinted(parts: Iterable[Painted], tint: int | None) -> list[Painted]:
     if tint is None:
         return list(parts)
     return [one if one.color == BOW_VIOLET else replace(one, color=_mixed(one.color, tint)) for one in parts]
+
+
+def tinted_colors(colors: FloatArray, tint: int | None) -> FloatArray:
+    """Return colours, shape (n, 3), in shades of a tint, 0xRRGGBB; None leaves them as they are."""
+    return colors if tint is None else (1.0 - TINT) * colors + TINT * rgb(tint)
 
 
 def _mixed(color: int, tint: int) -> int:

@@ -1,11 +1,10 @@
-"""A vehicle to draw: its hull by kind, its thrusters one by one, and its ghost at the goal."""
+"""A vehicle to draw: its own mesh, or else its hull by kind and its thrusters one by one; its ghost at the goal."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
-from dq_marine.viewer.meshes import sphere
+from dq_marine.viewer.meshes import Mesh, sphere
 from dq_marine.viewer.models import (
     catamaran_model,
     ellipsoid_model,
@@ -13,11 +12,12 @@ from dq_marine.viewer.models import (
     ship_model,
     torpedo_model,
 )
-from dq_marine.viewer.models.paint import tinted
+from dq_marine.viewer.models.own_mesh import OwnMesh, own_mesh
+from dq_marine.viewer.models.paint import tinted, tinted_colors
 from dq_marine.viewer.models.thruster_model import thruster_model
 from dq_marine.viewer.snapshot import Shape, ShapeKind
 from dq_marine.viewer.transport.messages import Message, set_object
-from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface
+from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface, surface
 
 VEHICLE = "/world/vehicle"
 GOAL_GHOST = "/world/goal/ghost"
@@ -50,6 +50,10 @@ THRUSTER_RADII: dict[ShapeKind, Callable[[Shape], float]] = {
 
 def draw_vehicle(shape: Shape, path: str = VEHICLE, tint: int | None = None) -> list[Message]:
     """Draw a vehicle, part by part, in body axes; in shades of a tint, 0xRRGGBB, or in its own colours."""
+    own = _own(shape)
+    if own is not None:
+        hull = f"{path}/hull"
+        return [set_object(hull, surface(hull, own.mesh, tinted_colors(own.colors, tint), SOLID))]
     parts = {**_hull_parts(shape), **_thrusters(shape)}
     messages = [_draw(f"{path}/{name}", tinted(painted, tint), SOLID) for name, painted in parts.items()]
     if shape.kind == "open_frame":
@@ -62,10 +66,20 @@ def draw_goal(
     shape: Shape, ghost_path: str = GOAL_GHOST, ball_path: str = GOAL_BALL, color: int = GHOST_GREEN
 ) -> list[Message]:
     """Draw the hull as a ghost of one colour, and a ball of that colour for a goal without an attitude."""
-    hull = [painted for part in _hull_parts(shape).values() for painted in part]
-    ghost = [replace(painted, color=color) for painted in hull]
+    ghost = [Painted(mesh, color) for mesh in _hull_meshes(shape)]
     ball = [Painted(sphere(BALL_RADIUS_IN_LENGTHS * shape.length), color)]
     return [_draw(ghost_path, ghost, GHOST), _draw(ball_path, ball, GHOST)]
+
+
+def _own(shape: Shape) -> OwnMesh | None:
+    return None if shape.appearance is None else own_mesh(shape.appearance)
+
+
+def _hull_meshes(shape: Shape) -> list[Mesh]:
+    own = _own(shape)
+    if own is not None:
+        return [own.mesh]
+    return [painted.mesh for part in _hull_parts(shape).values() for painted in part]
 
 
 def _hull_parts(shape: Shape) -> dict[str, list[Painted]]:
