@@ -37,6 +37,7 @@ from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 from dq_marine.integrator.radau_sweeps import make_solve
 from dq_marine.integrator.staged import Step
 from dq_marine.integrator.step import Advance, Composition, StepParameters
+from dq_marine.integrator.sweeps import same
 
 STAGES = 4
 
@@ -77,7 +78,9 @@ def make_damped_step(
         start = Place(spatial_scale(h, momentum), pose.real, spread((0.0, 0.0, 0.0), like))
         elapsed = each_stage(nodes, multiplied, (h, stage_constants(nodes, like)))
         around = Surroundings(parameters, length_squared, like, h, position, wrench, time, elapsed)
-        begun = each_stage(nodes, evaluate, (around, start))
+        # A force that sums over waves has numbers of one kind alone: those of all stages, as the time is.
+        at_stages = each_stage(nodes, same, (start,))
+        begun = each_stage(nodes, evaluate, (around, at_stages))
         pushed = stage_sum(weights, each_stage(nodes, weighted_square, (length_squared, begun.wrench)))
         size = weighted_square(length_squared, start.momentum) + pushed + smallest_normal(like)
         found, report = solve(around, parameters.timing.damping, start, begun, size)

@@ -84,3 +84,22 @@ def test_the_order_is_that_of_the_method_under_every_force(scheme, order, name, 
     series = [np.abs(end - exact).max() for end in ends]
     expected = 7 if scheme == "gauss" else order
     assert observed_order(1.0 / counts, series) == pytest.approx(expected, abs=0.5), series
+
+
+@pytest.mark.parametrize(
+    ("scheme", "name"),
+    sweep(
+        [(scheme, name) for scheme in ("gauss", "galerkin") for name in FORCES if name != COMPILED],
+        plain=[("gauss", "waves on a submerged body")],
+    ),
+)
+def test_a_compiled_body_moves_as_a_plain_one(scheme, name):
+    """A single body has its stages in the lanes of a vector register; forces must be able to be computed there."""
+    vehicle, settings = FORCES[name]
+    depth = 0.0 if load_vehicle(vehicle).hydrostatics is not None else 3.0
+    scene = Scene(vehicle, step=0.1, scheme=scheme, order=8, **settings)
+    compiled, plain = scene.stepper(), PlainBody(scene.composition, scene.parameters_at, scene.step)
+    for body in (compiled, plain):
+        body.reset((0.5, 0.2, depth), velocity_body=0.3 * VELOCITY)
+        body.step(steps=6)
+    np.testing.assert_allclose(compiled.get_state(), plain.get_state(), atol=1e-9)
