@@ -52,6 +52,7 @@ from dq_marine.task.sensors.build import DepthMeter as DepthMeter
 from dq_marine.task.sensors.build import Gyroscope as Gyroscope
 from dq_marine.task.sensors.errors import Instrument as Instrument
 from dq_marine.task.sensors.sensor import Sensor as Sensor
+from dq_marine.vehicles import Appearance as Appearance
 from dq_marine.vehicles import Sheet as Sheet
 from dq_marine.vehicles import Vehicle as Vehicle
 from dq_marine.vehicles import ellipsoid as ellipsoid

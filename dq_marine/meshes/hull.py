@@ -114,7 +114,9 @@ def _afloat(surface: Surface, turned: int, name: str, choices: Choices) -> Hull:
     mass = choices.mass or choices.density * plane.volume
     about = Flotation(plane.volume, center, plane.area, plane.first_moments, plane.second_moments)
     wet_body = wet + waterline - origin
-    return Hull(moved, enclosed(moved.corners), wet_body, plane.volume, center, mass, level, about, turned, origin)
+    return Hull(
+        moved, enclosed(moved.corners), wet_body, plane.volume, center, mass, level, about, turned, origin
+    )
 
 
 def _check_size(surface: Surface, name: str, choices: Choices) -> None:

@@ -76,7 +76,7 @@ def file_text(built: BuiltVehicle, mesh: Path, file: Path, choices: Choices) -> 
         values["radiation"] = f"{file.stem}_radiation.csv"
     tables = {key: value for key, value in built.content.items() if isinstance(value, Mapping)}
     beside = os.path.relpath(mesh.resolve(), file.parent.resolve())
-    tables["appearance"] = tables["appearance"] | {"file": beside}
+    tables["appearance"] = {**tables["appearance"], "file": beside}
     parts = [_comment(header)]
     parts += [_with_reasons({key: value}, built.reasons.get(key, ())) for key, value in values.items()]
     parts += [_with_reasons({key: value}, built.reasons.get(key, ())) for key, value in tables.items()]

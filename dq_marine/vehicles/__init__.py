@@ -6,4 +6,13 @@ from dq_marine.vehicles.appearance import Appearance
 from dq_marine.vehicles.loading import load_vehicle, vehicle_names
 from dq_marine.vehicles.model import Vehicle
 
-__all__ = ["Appearance", "Sheet", "Vehicle", "ellipsoid", "load_vehicle", "spheroid", "vehicle_names", "vehicle_sheet"]
+__all__ = [
+    "Appearance",
+    "Sheet",
+    "Vehicle",
+    "ellipsoid",
+    "load_vehicle",
+    "spheroid",
+    "vehicle_names",
+    "vehicle_sheet",
+]

@@ -20,6 +20,7 @@ from dq_marine.meshes import Choices, vehicle_from_mesh
 from dq_marine.meshes import potential_flow as solver
 from dq_marine.physics.radiation.build import radiation_model
 from dq_marine.vehicles import Vehicle, load_vehicle
+from dq_marine.viewer.models.own_mesh import own_mesh
 
 WITHOUT_SOLVER = "needs the extra `bem`"
 
@@ -97,6 +98,24 @@ def test_the_origin_of_the_mesh_may_be_the_body_origin(tmp_path: Path) -> None:
     expected = change.T @ center.mass_matrix @ change
     np.testing.assert_allclose(own.mass_matrix, expected, rtol=1e-3, atol=1e-3 * expected.max())
     assert own.equilibrium_depth == pytest.approx(0.125, abs=1e-6)
+
+
+@pytest.mark.parametrize("origin", ["center", "mesh"])
+def test_the_mesh_is_drawn_where_the_hull_is(tmp_path: Path, origin: str) -> None:
+    pytest.importorskip("capytaine", reason=WITHOUT_SOLVER)
+    pytest.importorskip("trimesh", reason="needs the extra `models`")
+    (tmp_path / "meshes").mkdir()
+    corners = (box(2.0, 1.0, 0.5) + np.array([0.25, 0.1, -0.125])) / 0.0254
+    mesh, file = write_stl(tmp_path / "meshes" / "hull.stl", corners), tmp_path / "mine.toml"
+    built, _ = vehicle_from_mesh(mesh, file, Choices(draft=0.25, panels=100, unit="in", origin=origin))
+    assert 'file = "meshes/hull.stl"' in file.read_text(encoding="utf-8")
+    appearance = load_vehicle(file).appearance
+    assert appearance is not None
+    drawn = own_mesh(appearance)
+    assert drawn is not None
+    for pick in (np.min, np.max):
+        expected = pick(built.hull.surface.vertices, axis=0)
+        np.testing.assert_allclose(pick(drawn.mesh.vertices, axis=0), expected, atol=1e-6)
 
 
 @pytest.mark.slow

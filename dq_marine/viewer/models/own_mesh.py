@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dq_marine.checks import existing_file, shown
 from dq_marine.errors import InvalidInputError, MissingDependencyError
@@ -17,7 +18,6 @@ from dq_marine.util.extras import optional_library
 from dq_marine.vehicles.appearance import Appearance
 from dq_marine.viewer.meshes import Mesh, joined
 from dq_marine.viewer.snapshot import FloatArray
-from dq_marine.viewer.transport.three_json import rgb
 
 MOST_TRIANGLES = 200_000
 """That a browser without a graphics card draws within a second, and that a replay can hold."""
@@ -94,17 +94,19 @@ def _in_body_axes(library: Any, part: Any, appearance: Appearance) -> OwnMesh:
         raise InvalidInputError(
             f"{appearance.file} has a coordinate that is not finite; export the mesh again"
         )
+    part.visual = library.visual.ColorVisuals(part, vertex_colors=_colors(part, appearance))
     smooth = library.graph.smooth_shade(part, angle=SHARP, facet_minarea=None)
-    turned = appearance.rotation.T
-    vertices = appearance.scale * smooth.vertices @ turned + np.array(appearance.origin)
+    to_body = appearance.rotation.T
+    vertices = appearance.scale * smooth.vertices @ to_body + np.array(appearance.origin)
     triangles = np.asarray(smooth.faces, dtype=np.int64)
-    return OwnMesh(Mesh(vertices, smooth.vertex_normals @ turned, triangles), _colors(smooth, appearance))
+    mesh = Mesh(vertices, smooth.vertex_normals @ to_body, triangles)
+    return OwnMesh(mesh, np.asarray(smooth.visual.vertex_colors[:, :3] / 255.0))
 
 
-def _colors(part: Any, appearance: Appearance) -> FloatArray:
-    """Return the colours of a surface's vertices: its own, or those of its texture, or the vehicle's."""
+def _colors(part: Any, appearance: Appearance) -> NDArray[np.uint8]:
+    """Return the colours of a surface's vertices, shape (n, 4): its own, or those of its texture, or the vehicle's."""
     count = len(part.vertices)
     if not part.visual.defined:
-        return np.tile(rgb(int(appearance.color[1:], 16)), (count, 1))
+        return np.tile(np.array([*bytes.fromhex(appearance.color[1:]), 255], dtype=np.uint8), (count, 1))
     visual = part.visual.to_color() if part.visual.kind == "texture" else part.visual
-    return np.asarray(np.broadcast_to(visual.vertex_colors, (count, 4))[:, :3] / 255.0)
+    return np.asarray(np.broadcast_to(visual.vertex_colors, (count, 4)), dtype=np.uint8)
