@@ -12,6 +12,8 @@ import os
 import warnings
 from pathlib import Path
 
+from llvmlite.binding import ffi
+from numba.core.compiler_lock import global_compiler_lock
 from numba.core.dispatcher import Dispatcher
 
 PROC = Path("/proc/self/statm")
@@ -45,23 +47,32 @@ def is_kept(dispatcher, signature) -> bool:
     return cache._index_key(signature, dispatcher.targetctx.codegen()) in index
 
 
+def forked() -> int:
+    """Fork, and return the child's number, or 0 in the child, in which this thread alone goes on.
+
+    LLVM's lock is this thread's meanwhile: if another one held it, nobody would ever release it in the child.
+    """
+    with warnings.catch_warnings(), ffi.lib._lock:
+        warnings.simplefilter("ignore")  # of threads: the child uses none of them
+        return os.fork()
+
+
 def compile_in_children() -> None:
     """Let Numba compile as described, from now on and in this process."""
     compile_here = Dispatcher.compile
 
     def compile_in_child(dispatcher, signature):
         wanted = HERE not in os.environ and memory_held() > ENOUGH
-        if wanted and not is_kept(dispatcher, signature):
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # of threads: the child uses none of them
-                child = os.fork()
-            if child == 0:
-                Dispatcher.compile = compile_here
-                try:
-                    compile_here(dispatcher, signature)
-                finally:
-                    os._exit(0)  # the parent meets the same error
-            os.waitpid(child, 0)
+        with global_compiler_lock:  # other threads wait here, and find what a child has compiled
+            if wanted and not is_kept(dispatcher, signature):
+                child = forked()
+                if child == 0:
+                    Dispatcher.compile = compile_here
+                    try:
+                        compile_here(dispatcher, signature)
+                    finally:
+                        os._exit(0)  # the parent meets the same error
+                os.waitpid(child, 0)
         return compile_here(dispatcher, signature)
 
     Dispatcher.compile = compile_in_child
