@@ -7,15 +7,12 @@ import sys
 from pathlib import Path
 
 import pytest
-from support.sweeps import sweep
 
 BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
 
 
-SCRIPTS = sorted(path.name for path in BENCHMARKS.glob("*.py"))
-
-
-@pytest.mark.parametrize("script", sweep(SCRIPTS, plain=["performance.py"]))
+@pytest.mark.sweep
+@pytest.mark.parametrize("script", sorted(path.name for path in BENCHMARKS.glob("*.py")))
 def test_a_script_teaches_its_use(script: str) -> None:
     result = subprocess.run(
         [sys.executable, str(BENCHMARKS / script), "--help"], capture_output=True, text=True, timeout=300.0

@@ -137,6 +137,7 @@ def test_radiation_goes_beside_the_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_a_barge_from_a_mesh_remembers_its_waves(tmp_path: Path) -> None:
     """Its file says what of its damping the memory replaces, and the model reproduces the panels' table."""
     pytest.importorskip("capytaine", reason=WITHOUT_SOLVER)

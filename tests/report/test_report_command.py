@@ -161,7 +161,6 @@ def test_a_missing_library_is_named_with_its_remedy(missing: str, tmp_path: Path
 
 CASE, MORE_CASES = ["--case", "munk_spheroid"], ["--case", "ship_restoring", "--case", "damped_bluerov2_x30"]
 ONE_CASE = ["--only", "work_precision", *CASE]
-SOLVER = ["--only", "solver"]
 
 
 class Made(NamedTuple):
@@ -184,8 +183,8 @@ def make_quickly(choice: list[str], folder: Path) -> Made:
 
 @pytest.fixture(scope="module")
 def quick(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
-    """A quick report of two studies on one case; where sweeps run, of all on three, which differ most."""
-    choice = [*CASE, *MORE_CASES] if sweeps_wanted(request.config) else [*ONE_CASE, *SOLVER]
+    """A quick report of one study on one case; where sweeps run, of all on three, which differ most."""
+    choice = [*CASE, *MORE_CASES] if sweeps_wanted(request.config) else ONE_CASE
     return make_quickly(choice, tmp_path_factory.mktemp("quick"))
 
 
@@ -194,8 +193,8 @@ def test_the_quick_report_passes_its_checks_and_is_there_at_once_the_second_time
     decided = re.search(r"(\d+) of \1 checks passed", quick.output)
     assert decided, quick.output
     text, rows = (quick.folder / "index.html").read_text(), quick.rows()
-    assert int(decided[1]) >= (10 if len(rows) == 2 else 70), "most orders can be read off"
-    assert set(rows) == ({"work_precision", "solver"} if "--only" in quick.choice else set(STUDIES))
+    assert int(decided[1]) >= (10 if quick.choice == ONE_CASE else 70), "most orders can be read off"
+    assert set(rows) == ({"work_precision"} if quick.choice == ONE_CASE else set(STUDIES))
     for name in rows:
         assert STUDIES[name].title in text
     assert text.count("<figure ") == sum(len(STUDIES[name].drawings(rows[name])) for name in rows)
@@ -205,9 +204,10 @@ def test_the_quick_report_passes_its_checks_and_is_there_at_once_the_second_time
 
 
 @pytest.mark.slow
+@pytest.mark.sweep
 def test_two_runs_have_the_same_errors(quick: Made, tmp_path: Path) -> None:
     """To the last digit: only times differ."""
-    again = make_quickly(SOLVER if "--only" in quick.choice else ONE_CASE, tmp_path).rows()
+    again = make_quickly(ONE_CASE, tmp_path).rows()
     for study, rows in again.items():
         first = [row for row in quick.rows()[study] if row.get("case") in {row.get("case") for row in rows}]
         assert without_timings(rows) == without_timings(first)

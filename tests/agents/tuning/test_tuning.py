@@ -24,6 +24,7 @@ from dq_marine.agents.tuning.tuning import Tried, plan_of, tune
 from dq_marine.errors import InvalidInputError
 
 
+@pytest.mark.sweep
 def test_a_search_is_the_same_each_time_and_begins_with_the_preset(tmp_path: Path) -> None:
     plan = plan_of(tiny(tmp_path, "ppo", 64), seed=3)
     first, again = (tune(StudyFolder(tmp_path / name), plan, trials=3) for name in ("a", "b"))
