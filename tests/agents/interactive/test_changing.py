@@ -26,7 +26,22 @@ from dq_marine.viewer.controls import Event
 STILL = with_keywords(DEFAULT_ENVIRONMENT, current=0.0)
 
 
-def test_another_vehicle_flies_from_the_next_episode_on(flight, tmp_path) -> None:
+@pytest.fixture
+def slow_making(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, bool]]:
+    """Making an environment takes a while; the vehicles of those that are made, and whether in the main thread."""
+    made: list[tuple[str, bool]] = []
+    foreseen = MarineEnv.foreseen
+
+    def slowly(env: MarineEnv, action: Any) -> Any:
+        made.append((env.vehicle.name, threading.current_thread() is threading.main_thread()))
+        time.sleep(0.5)
+        return foreseen(env, action)
+
+    monkeypatch.setattr(MarineEnv, "foreseen", slowly)
+    return made
+
+
+def test_another_vehicle_flies_from_the_next_episode_on(flight, slow_making, tmp_path) -> None:
     flown: list[Any] = []
 
     def offer(env: gym.Env[Any, Any]) -> dict[str, Agent]:
@@ -45,21 +60,6 @@ def test_another_vehicle_flies_from_the_next_episode_on(flight, tmp_path) -> Non
     assert any(notice.startswith(MAKING) for notice in page.notices)
     assert page.notices[-1] == ""
     assert "<title>BlueROV2</title>" in replay.read_text(encoding="utf-8")
-
-
-@pytest.fixture
-def slow_making(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, bool]]:
-    """Making an environment takes a while; the vehicles of those that are made, and whether in the main thread."""
-    made: list[tuple[str, bool]] = []
-    foreseen = MarineEnv.foreseen
-
-    def slowly(env: MarineEnv, action: Any) -> Any:
-        made.append((env.vehicle.name, threading.current_thread() is threading.main_thread()))
-        time.sleep(0.5)
-        return foreseen(env, action)
-
-    monkeypatch.setattr(MarineEnv, "foreseen", slowly)
-    return made
 
 
 def test_what_is_compiled_is_so_aside_and_the_page_says_so(flight, slow_making) -> None:
