@@ -22,13 +22,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from dq_marine.agents.locked_folder import folder_locked, holds_anything
 from dq_marine.agents.preset_files import validate_settings
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.snapshots import Progress, is_whole, read_progress, write_progress
 from dq_marine.checks import existing_file, possible_path, shown, whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.files import new_folder, unwritable, write_json
-from dq_marine.util.locks import FileLock, HeldLockError
 
 MODEL_FILE = "model.zip"
 NORMALISATION_FILE = "normalisation.pkl"
@@ -96,7 +96,7 @@ class RunFolder:
                 f"{self.path} holds a run already; continue it with --resume, replace it with --force, or choose "
                 "another folder"
             )
-        if not self.holds_run and self._holds_anything():
+        if not self.holds_run and holds_anything(self.path, LOCK_FILE):
             raise InvalidInputError(
                 f"{self.path} exists and is not a run; choose a new or empty folder (nothing was removed)"
             )
@@ -108,22 +108,8 @@ class RunFolder:
         Raises:
             InvalidInputError: one trains here already, or the folder cannot be written, at first or later.
         """
-        try:
-            lock = FileLock(self.path / LOCK_FILE)
-        except HeldLockError as error:
-            raise InvalidInputError(
-                f"{self.path} is being trained by process {error.owner}; wait until it has ended, or end it"
-            ) from error
-        except OSError as error:
-            raise unwritable(self.path, error) from error
-        try:
+        with folder_locked(self.path, LOCK_FILE, doing="trained"):
             yield
-        except ConnectionError:  # a closed terminal, or a page that watches
-            raise
-        except OSError as error:
-            raise unwritable(self.path, error) from error
-        finally:
-            lock.release()
 
     def write_plan(self, plan: RunPlan) -> None:
         """Write `run.json`."""
@@ -228,11 +214,6 @@ class RunFolder:
 
     def _snapshots(self, kind: Kind) -> list[Path]:
         return [one for one in (self.path / kind).glob("[0-9]*") if one.name.isdecimal() and one.is_dir()]
-
-    def _holds_anything(self) -> bool:
-        if not self.path.is_dir():
-            return self.path.exists()
-        return any(one.name != LOCK_FILE for one in self.path.iterdir())
 
     def _remove_run(self) -> None:
         """Remove what a run writes, and nothing else; the plan last, so that an interrupted removal can be resumed."""

@@ -18,15 +18,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from dq_marine.agents.locked_folder import folder_locked, holds_anything
 from dq_marine.agents.preset_files import validate_settings
 from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.training.run_folder import LARGEST_SEED
 from dq_marine.checks import possible_path, shown, whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.files import unwritable, write_json
-from dq_marine.util.locks import FileLock, HeldLockError
-
-LARGEST_SEED = 2**32 - 1
-"""Of a search: NumPy's global generator, which stable-baselines3 seeds, takes no larger one."""
 
 LOCK_FILE = "study.lock"
 
@@ -71,27 +69,20 @@ class StudyFolder:
             InvalidInputError: another search is here, or something else, another process searches here, or the folder
                 cannot be written.
         """
-        if self.path.exists() and not self._plan_file.is_file() and self._holds_anything():
+        if not self._plan_file.is_file() and holds_anything(self.path, LOCK_FILE):
             raise InvalidInputError(
                 f"{self.path} exists and is not a study; choose a new or empty folder (nothing was removed)"
             )
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            lock = FileLock(self.path / LOCK_FILE)
-        except HeldLockError as error:
-            raise InvalidInputError(
-                f"{self.path} is being searched by process {error.owner}; wait until it has ended, or end it"
-            ) from error
         except OSError as error:
             raise unwritable(self.path, error) from error
-        try:
+        with folder_locked(self.path, LOCK_FILE, doing="searched"):
             if self._plan_file.is_file():
                 self._check_same(plan)
             else:
                 write_json(self._plan_file, {"seed": plan.seed, "base": plan.base.model_dump(mode="json")})
             yield
-        finally:
-            lock.release()
 
     def read_plan(self) -> StudyPlan:
         """Read `study.json`.
@@ -125,9 +116,6 @@ class StudyFolder:
         raise InvalidInputError(
             f"{self.path} holds another study: {told}; go on with the same options, or choose another folder"
         )
-
-    def _holds_anything(self) -> bool:
-        return not self.path.is_dir() or any(one.name != LOCK_FILE for one in self.path.iterdir())
 
 
 def _flat(content: dict[str, Any], above: str = "") -> dict[str, Any]:

@@ -15,6 +15,7 @@ from typing import Any
 
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.training.run_folder import LARGEST_SEED
 from dq_marine.agents.tuning.search_space import (
     Space,
     chosen_values,
@@ -22,7 +23,7 @@ from dq_marine.agents.tuning.search_space import (
     search_space,
     with_values,
 )
-from dq_marine.agents.tuning.study_folder import LARGEST_SEED, StudyFolder, StudyPlan
+from dq_marine.agents.tuning.study_folder import StudyFolder, StudyPlan
 from dq_marine.checks import whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
@@ -147,7 +148,7 @@ def _study(folder: StudyFolder, plan: StudyPlan, worker: int) -> optuna.Study:
         storage=f"sqlite:///{folder.database.resolve()}",
         load_if_exists=True,
         direction="maximize",
-        sampler=optuna.samplers.TPESampler(seed=(plan.seed + worker) % LARGEST_SEED),
+        sampler=optuna.samplers.TPESampler(seed=(plan.seed + worker) % (LARGEST_SEED + 1)),
         pruner=optuna.pruners.MedianPruner(n_startup_trials=UNJUDGED_TRIALS, n_warmup_steps=warmup),
     )
 

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from dq_marine.cli.common import console, examples
-from dq_marine.cli.options import POLICY, Baseline, baselines_option
+from dq_marine.cli.options import POLICY, Baseline, ProcessesOption, baselines_option
 from dq_marine.errors import InvalidInputError
 
 EXAMPLES = examples(
@@ -58,10 +58,7 @@ def leaderboard(
     seed: Annotated[
         int, typer.Option("--seed", min=0, help="Seed of the first episode; the others count up from it.")
     ] = 0,
-    processes: Annotated[
-        int | None,
-        typer.Option("--processes", min=1, max=256, help="That fly at a time.", show_default="all cores"),
-    ] = None,
+    processes: ProcessesOption = None,
     out: Annotated[
         Path, typer.Option("--out", help="The page; its figures are kept beside it, as .json.")
     ] = Path("leaderboard.md"),

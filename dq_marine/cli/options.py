@@ -1,4 +1,4 @@
-"""Options that `train`, `fly` and `evaluate` share."""
+"""Options that commands share."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SECONDS = 30.0
 
 
 class Algorithm(StrEnum):
-    """What `train --algorithm` takes."""
+    """What `--algorithm` takes."""
 
     PPO = "ppo"
     RECURRENT_PPO = "recurrent_ppo"
@@ -93,6 +93,28 @@ SetOption = Annotated[
         help="Any keyword of the environment; may be repeated. The value is TOML or JSON, a dot reaches into a table, "
         "null takes the default. A wrong key is answered with the list of keys.",
     ),
+]
+AlgorithmOption = Annotated[
+    Algorithm | None,
+    typer.Option(
+        "--algorithm",
+        help="Learning algorithm, with the preset of its name.",
+        show_default="ppo, or the preset's",
+    ),
+]
+TrainingPresetOption = Annotated[
+    str | None,
+    typer.Option(
+        "--preset", help="Name of a preset, or path of a TOML file.", show_default="the algorithm's"
+    ),
+]
+EnvsOption = Annotated[
+    int | None,
+    typer.Option("--envs", min=1, help="Number of environments to learn from.", show_default="the preset's"),
+]
+ProcessesOption = Annotated[
+    int | None,
+    typer.Option("--processes", min=1, max=256, help="How many work at a time.", show_default="all cores"),
 ]
 POLICY = "Exported policy (.onnx), or hf://OWNER/NAME@REVISION on the Hugging Face Hub"
 PolicyOption = Annotated[str | None, typer.Option("--policy", help=f"{POLICY}: it flies, without torch.")]

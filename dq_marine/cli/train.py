@@ -9,12 +9,14 @@ import typer
 
 from dq_marine.cli.common import console, examples
 from dq_marine.cli.options import (
-    Algorithm,
+    AlgorithmOption,
     CurrentOption,
+    EnvsOption,
     LevelOption,
     PrintPresetOption,
     SetOption,
     TaskOption,
+    TrainingPresetOption,
     VehicleOption,
     print_preset,
 )
@@ -44,32 +46,15 @@ def train(
             "--run", help="Folder for checkpoints, the best model and logs.", show_default="required"
         ),
     ] = None,
-    algorithm: Annotated[
-        Algorithm | None,
-        typer.Option(
-            "--algorithm",
-            help="Learning algorithm, with the preset of its name.",
-            show_default="ppo, or the preset's",
-        ),
-    ] = None,
-    preset: Annotated[
-        str | None,
-        typer.Option(
-            "--preset", help="Name of a preset, or path of a TOML file.", show_default="the algorithm's"
-        ),
-    ] = None,
+    algorithm: AlgorithmOption = None,
+    preset: TrainingPresetOption = None,
     timesteps: Annotated[
         int | None,
         typer.Option(
             "--timesteps", min=1, help="Steps in all, also with --resume.", show_default="the preset's"
         ),
     ] = None,
-    envs: Annotated[
-        int | None,
-        typer.Option(
-            "--envs", min=1, help="Number of environments to learn from.", show_default="the preset's"
-        ),
-    ] = None,
+    envs: EnvsOption = None,
     seed: Annotated[
         int | None,
         typer.Option(

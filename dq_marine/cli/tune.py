@@ -10,11 +10,14 @@ from rich.table import Table
 
 from dq_marine.cli.common import console, examples
 from dq_marine.cli.options import (
-    Algorithm,
+    AlgorithmOption,
     CurrentOption,
+    EnvsOption,
     LevelOption,
+    ProcessesOption,
     SetOption,
     TaskOption,
+    TrainingPresetOption,
     VehicleOption,
 )
 
@@ -39,38 +42,16 @@ def tune(
         ),
     ],
     trials: Annotated[int, typer.Option("--trials", min=1, help="In all, with those of before.")] = 30,
-    algorithm: Annotated[
-        Algorithm | None,
-        typer.Option(
-            "--algorithm",
-            help="Learning algorithm, with the preset of its name.",
-            show_default="ppo, or the preset's",
-        ),
-    ] = None,
-    preset: Annotated[
-        str | None,
-        typer.Option(
-            "--preset",
-            help="Name of a preset, or path of a TOML file, that the search begins from.",
-            show_default="the algorithm's",
-        ),
-    ] = None,
+    algorithm: AlgorithmOption = None,
+    preset: TrainingPresetOption = None,
     timesteps: Annotated[
         int | None, typer.Option("--timesteps", min=1, help="Of each trial.", show_default="the preset's")
     ] = None,
-    envs: Annotated[
-        int | None,
-        typer.Option(
-            "--envs", min=1, help="Number of environments to learn from.", show_default="the preset's"
-        ),
-    ] = None,
+    envs: EnvsOption = None,
     seed: Annotated[
         int, typer.Option("--seed", min=0, help="Of all trials, and of how they are chosen.")
     ] = 0,
-    processes: Annotated[
-        int | None,
-        typer.Option("--processes", min=1, max=256, help="That train at a time.", show_default="all cores"),
-    ] = None,
+    processes: ProcessesOption = None,
     task: TaskOption = None,
     vehicle: VehicleOption = None,
     level: LevelOption = None,

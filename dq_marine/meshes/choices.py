@@ -15,12 +15,10 @@ from dq_marine.meshes.panels import MOST_PANELS
 from dq_marine.meshes.surface import Array
 from dq_marine.physics.constants import GRAVITY
 from dq_marine.physics.gravity import checked_gravity
+from dq_marine.vehicles.appearance import METRES, axes_rotation
 from dq_marine.vehicles.model import Dimensions
 
-UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
-"""Length of a mesh's unit [m]."""
-
-AXES: dict[str, Array] = {"flu": np.diag([1.0, -1.0, -1.0]), "fsd": np.eye(3)}
+AXES: dict[str, Array] = {axes: axes_rotation(axes) for axes in ("flu", "fsd")}
 """Rotations to forward-starboard-down: from forward-port-up, usual in CAD, and from the body frame itself."""
 
 ORIGINS = ("center", "mesh")
@@ -36,7 +34,7 @@ class Choices:
         mass: m [kg]; None for the displaced water's.
         draft: of a hull afloat, from its keel [m].
         afloat: whether it floats, at the draft that its mass asks for.
-        unit: of the mesh, a key of `UNITS`.
+        unit: of the mesh, a key of `METRES`.
         axes: of the mesh, a key of `AXES`.
         origin: where the body origin is: "center", the centre of buoyancy, or of a hull afloat amidships in the still
             waterline; or "mesh", the mesh's own origin.
@@ -81,7 +79,7 @@ class Choices:
         if self.water_density is not None:
             density = finite_number("water_density", self.water_density, least=500.0, most=1500.0)
             object.__setattr__(self, "water_density", density)
-        one_of("unit", self.unit, UNITS)
+        one_of("unit", self.unit, METRES)
         one_of("axes", self.axes, AXES)
         one_of("origin", self.origin, ORIGINS)
         if self.shape is not None:

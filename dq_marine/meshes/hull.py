@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.meshes.choices import AXES, UNITS, Choices
+from dq_marine.meshes.choices import AXES, Choices
 from dq_marine.meshes.repair import closed_surface
 from dq_marine.meshes.stl import read_stl
 from dq_marine.meshes.surface import Array, Solid, Surface, enclosed
 from dq_marine.meshes.waterline import Flotation, draft_of_mass, flotation, wet_part
+from dq_marine.vehicles.appearance import METRES
 
 SHORTEST, LONGEST = 0.02, 500.0
 """Lengths of hulls [m]: the longest ship has 458 m."""
@@ -67,7 +68,7 @@ def read_hull(mesh: Path, choices: Choices) -> Hull:
     """
     name = str(mesh)
     surface, turned = closed_surface(read_stl(mesh), name)
-    surface = surface.moved(AXES[choices.axes], UNITS[choices.unit], np.zeros(3))
+    surface = surface.moved(AXES[choices.axes], METRES[choices.unit], np.zeros(3))
     _check_size(surface, name, choices)
     if choices.floats:
         return _afloat(surface, turned, name, choices)
@@ -125,7 +126,7 @@ def _check_size(surface: Surface, name: str, choices: Choices) -> None:
         return
     raise InvalidInputError(
         f"{name} is {longest:.6g} m long, read in {choices.unit}; hulls have {SHORTEST:g} to {LONGEST:g} m: "
-        f"give the unit of the file, as --unit mm (one of {', '.join(UNITS)})"
+        f"give the unit of the file, as --unit mm (one of {', '.join(METRES)})"
     )
 
 

@@ -29,6 +29,15 @@ METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 """In the units that a mesh may be in."""
 
 
+def axes_rotation(axes: str) -> NDArray[np.float64]:
+    """Return the matrix from axes to body axes, shape (3, 3).
+
+    Args:
+        axes: where x, y and z point, three of the letters of `DIRECTIONS`.
+    """
+    return np.array([DIRECTIONS[letter] for letter in axes]).T
+
+
 class Appearance(Table):
     """A mesh that is drawn in place of the picture by kind. It has no part in the physics.
 
@@ -54,7 +63,7 @@ class Appearance(Table):
             raise Implausible(
                 "appearance.file", repr(self.file), f"it ends in {ending!r}", "give a mesh in STL or GLB"
             )
-        if self.axes is not None and not np.isclose(np.linalg.det(self._directions(self.axes)), 1.0):
+        if self.axes is not None and not np.isclose(np.linalg.det(axes_rotation(self.axes)), 1.0):
             raise Implausible(
                 "appearance.axes",
                 repr(self.axes),
@@ -66,13 +75,9 @@ class Appearance(Table):
     @property
     def rotation(self) -> NDArray[np.float64]:
         """From the mesh's axes to body axes, shape (3, 3)."""
-        return self._directions(self.axes or USUAL_AXES[Path(self.file).suffix.lower()])
+        return axes_rotation(self.axes or USUAL_AXES[Path(self.file).suffix.lower()])
 
     @property
     def scale(self) -> float:
         """Metres in the mesh's unit."""
         return METRES[self.unit]
-
-    @staticmethod
-    def _directions(axes: str) -> NDArray[np.float64]:
-        return np.array([DIRECTIONS[letter] for letter in axes]).T

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from dq_marine.checks import existing_file, shown
 from dq_marine.errors import InvalidInputError, MissingDependencyError
-from dq_marine.meshes.stl import read_stl
 from dq_marine.util.announce import announce
 from dq_marine.util.extras import optional_library
 from dq_marine.vehicles.appearance import Appearance
@@ -73,6 +72,8 @@ def own_mesh(appearance: Appearance) -> OwnMesh | None:
 
 
 def _stl_parts(library: Any, file: Path) -> list[Any]:
+    from dq_marine.meshes.stl import read_stl  # here: it brings all that makes vehicles of meshes
+
     corners = read_stl(file)
     return [library.Trimesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))]
 
