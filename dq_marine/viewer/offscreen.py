@@ -45,7 +45,7 @@ class OffscreenViewer(Closable):
             height: of the pictures [pixels].
             floor_depth: depth of the sea floor [m]; None puts one below vehicle and goal.
             caption: write simulated time and depth in a corner of the picture.
-            smooth: smooth the edges of things, which takes nearly twice as long: for videos and pictures to look at.
+            smooth: smooth the edges of things, which takes 1.6 times as long: for videos and pictures to look at.
 
         Raises:
             MissingDependencyError: a library of the viewer, or Chromium, is not installed.

@@ -87,8 +87,8 @@ def draw_water(colors: Surroundings, sight: float) -> list[Message]:
         set_property("", "fog", _murk(colors.murk, sight)),
         set_object("/Lights/sky", _sky()),
         set_object(SUN, _sun()),
-        # meshcat has every thing that it is given cast shadows. The sun's would fall on what is within 5 m of where NED
-        # begins and nowhere else, for a third of a picture's time without a graphics card.
+        # meshcat lets all that it is given cast shadows. The sun's would fall on what is within 5 m of the origin
+        # alone, and take a quarter of a picture's time without a graphics card.
         set_property(f"{SUN}/<object>", "castShadow", False),
     ]
 

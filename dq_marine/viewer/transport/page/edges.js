@@ -1,4 +1,4 @@
-// Smooth edges take nearly half of a picture's time where there is no graphics card: there they are left out, unless the
+// Smooth edges take more than a third of a picture's time where there is no graphics card: there they are left out, unless the
 // address asks for them with ?smooth=1. With a graphics card they cost nothing worth naming, and ?smooth=0 leaves them out.
 "use strict";
 
