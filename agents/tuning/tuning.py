@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import multiprocessing
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 from dq_marine.agents.environments import make_environment
@@ -48,8 +49,6 @@ AGAIN = "again"
 
 FAILURES = (InvalidInputError, ValueError, ArithmeticError)
 """Of one trial, after which the search goes on: values that do not go together, and numbers that are not finite."""
-
-POLL_SECONDS = 1.0
 
 
 @dataclass(frozen=True)
@@ -94,14 +93,15 @@ def tune(
 ) -> list[Tried]:
     """Search until so many trials have ended in all, and return them, the best first.
 
-    With one process and one seed the trials are the same each time; several propose by what has ended so far.
+    With one process and one seed the trials are the same each time, stopped or not; several processes propose by what
+    has ended so far.
 
     Args:
         folder: of the study: new, or one to go on with.
         plan: what is searched.
         trials: in all, with those of before.
         processes: that train at a time.
-        after: called now and then with all trials that have ended.
+        after: called with all trials that have ended, whenever one has.
 
     Raises:
         InvalidInputError: a number is wrong, or another study is in the folder.
@@ -109,13 +109,15 @@ def tune(
     trials = whole_number("trials", trials, least=1)
     processes = whole_number("processes", processes, least=1, most=MOST_PROCESSES)
     with folder.begun(plan):
-        study = _study(folder, plan, worker=0)
+        study = _study(folder, plan)
         _take_up(study, plan)
-        missing = trials - len(_ended(study))
-        if missing > 0 and min(processes, missing) == 1:
-            _work(folder, trials, 0, after)
-        elif missing > 0:
-            _work_side_by_side(folder, trials, min(processes, missing), study, after)
+        coming = range(len(_ended(study)), trials)
+        if min(processes, len(coming)) <= 1:
+            for index in coming:
+                _try(folder, index)
+                after(tried(study, plan))
+        else:
+            _try_side_by_side(folder, coming, min(processes, len(coming)), lambda: after(tried(study, plan)))
         return tried(study, plan)
 
 
@@ -139,8 +141,11 @@ def _tried(trial: FrozenTrial, space: Space) -> Tried:
     )
 
 
-def _study(folder: StudyFolder, plan: StudyPlan, worker: int) -> optuna.Study:
-    """Return the study on disk, made if need be, with a sampler of its own for each worker."""
+def _study(folder: StudyFolder, plan: StudyPlan, index: int = 0) -> optuna.Study:
+    """Return the study on disk, made if need be, with the sampler of its trial of that index.
+
+    A sampler of each trial's own, so that a search that was stopped goes on as if it had not been.
+    """
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     warmup = int(UNJUDGED_SHARE * plan.base.timesteps)
     return optuna.create_study(
@@ -148,7 +153,7 @@ def _study(folder: StudyFolder, plan: StudyPlan, worker: int) -> optuna.Study:
         storage=f"sqlite:///{folder.database.resolve()}",
         load_if_exists=True,
         direction="maximize",
-        sampler=optuna.samplers.TPESampler(seed=(plan.seed + worker) % (LARGEST_SEED + 1)),
+        sampler=optuna.samplers.TPESampler(seed=(plan.seed + index) % (LARGEST_SEED + 1)),
         pruner=optuna.pruners.MedianPruner(n_startup_trials=UNJUDGED_TRIALS, n_warmup_steps=warmup),
     )
 
@@ -169,12 +174,10 @@ def _ended(study: optuna.Study) -> list[FrozenTrial]:
     return [trial for trial in trials if trial.state.is_finished() and trial.number not in again]
 
 
-def _work(
-    folder: StudyFolder, trials: int, worker: int, after: Callable[[list[Tried]], None] = lambda tried: None
-) -> None:
-    """Try until so many trials have ended or are being tried by others."""
+def _try(folder: StudyFolder, index: int) -> None:
+    """Train one trial to its end, or until it is given up."""
     plan = folder.read_plan()
-    space, study = search_space(plan.base), _study(folder, plan, worker)
+    space, study = search_space(plan.base), _study(folder, plan, index)
 
     def objective(trial: optuna.Trial) -> float:
         settings = with_values(plan.base, chosen_values(space, trial))
@@ -186,13 +189,7 @@ def _work(
 
         return _trial_return(settings, plan.seed, folder, trial.number, tell)
 
-    def stop_when_enough(study: optuna.Study, trial: FrozenTrial) -> None:
-        after(tried(study, plan))
-        others = study.get_trials(deepcopy=False, states=(TrialState.RUNNING,))
-        if len(_ended(study)) + len(others) >= trials:
-            study.stop()
-
-    study.optimize(objective, callbacks=[stop_when_enough], catch=FAILURES)
+    study.optimize(objective, n_trials=1, catch=FAILURES)
 
 
 def _trial_return(
@@ -207,24 +204,18 @@ def _trial_return(
     return trial_return(settings, seed=seed, logs=folder.tensorboard / f"trial{number:04d}", tell=tell)
 
 
-def _work_side_by_side(
-    folder: StudyFolder,
-    trials: int,
-    processes: int,
-    study: optuna.Study,
-    after: Callable[[list[Tried]], None],
-) -> None:
-    """Have several processes work, and say now and then what has ended."""
-    plan, context = folder.read_plan(), multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context) as pool:
-        with one_thread_each():
-            working: set[Any] = {pool.submit(_work, folder, trials, worker) for worker in range(processes)}
-        told = 0
+def _try_side_by_side(folder: StudyFolder, coming: range, processes: int, after: Callable[[], None]) -> None:
+    """Train so many trials at a time, and say so whenever one has ended.
+
+    One that has ended makes room for the next, so that none is begun that was not asked for.
+    """
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, mp_context=context) as pool, one_thread_each():
+        waiting = iter(coming)
+        working = {pool.submit(_try, folder, index) for index in islice(waiting, processes)}
         while working:
-            done, working = wait(working, timeout=POLL_SECONDS)
+            done, working = wait(working, return_when=FIRST_COMPLETED)
             for one in done:
                 one.result()
-            ended = tried(study, plan)
-            if len(ended) > told:
-                told = len(ended)
-                after(ended)
+            working |= {pool.submit(_try, folder, index) for index in islice(waiting, len(done))}
+            after()

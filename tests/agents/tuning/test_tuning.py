@@ -6,7 +6,9 @@ import csv
 import signal
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import optuna
@@ -25,10 +27,11 @@ from dq_marine.errors import InvalidInputError
 
 
 @pytest.mark.sweep
-def test_a_search_is_the_same_each_time_and_begins_with_the_preset(tmp_path: Path) -> None:
+def test_a_search_is_the_same_stopped_or_not_and_begins_with_the_preset(tmp_path: Path) -> None:
     plan = plan_of(tiny(tmp_path, "ppo", 64), seed=3)
-    first, again = (tune(StudyFolder(tmp_path / name), plan, trials=3) for name in ("a", "b"))
-    assert first == again
+    first = tune(StudyFolder(tmp_path / "whole"), plan, trials=3)
+    tune(StudyFolder(tmp_path / "stopped"), plan, trials=1)
+    assert tune(StudyFolder(tmp_path / "stopped"), plan, trials=3) == first
     assert sorted(one.number for one in first) == [0, 1, 2]
     (base,) = (one for one in first if one.number == 0)
     assert base.values["algorithm.learning_rate"] == plan.base.algorithm.learning_rate
@@ -106,6 +109,25 @@ def test_several_processes_try_as_many_as_were_asked_for(tmp_path: Path) -> None
     assert sorted(one.number for one in found) == list(range(5))
     assert told[-1] == 5
     assert told == sorted(told)
+
+
+def test_trials_that_end_together_begin_no_more_than_were_asked_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    together = threading.Barrier(4)
+
+    def trial_return(settings, seed, folder, number, tell) -> float:
+        if number < 4:
+            together.wait(timeout=60.0)
+        return 1.0
+
+    monkeypatch.setattr(tuning, "_trial_return", trial_return)
+    monkeypatch.setattr(
+        tuning, "ProcessPoolExecutor", lambda processes, mp_context: ThreadPoolExecutor(processes)
+    )
+    plan = plan_of(tiny(tmp_path, "ppo", 64), seed=3)
+    found = tune(StudyFolder(tmp_path / "study"), plan, trials=5, processes=4)
+    assert sorted(one.number for one in found) == list(range(5))
 
 
 @pytest.mark.parametrize("algorithm", [pytest.param("ppo", marks=pytest.mark.sweep), "sac"])
