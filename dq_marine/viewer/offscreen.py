@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.checks import finite_array
 from dq_marine.errors import InvalidInputError
 from dq_marine.viewer.errors import ViewerError
 from dq_marine.viewer.libraries import drawing_library
 from dq_marine.viewer.snapshot import Shape, Snapshot
 from dq_marine.viewer.transport.browser import HeadlessBrowser, find_chromium
 from dq_marine.viewer.transport.closable import Closable
+from dq_marine.viewer.transport.messages import set_property
 from dq_marine.viewer.transport.server_process import ServerProcess
+from dq_marine.viewer.world.camera import CAMERA
 from dq_marine.viewer.world.caption import write_caption
 from dq_marine.viewer.world.drawing import checked_floor_depth
 from dq_marine.viewer.world.stage import Stage
@@ -88,6 +93,21 @@ class OffscreenViewer(Closable):
             write_caption(picture, snapshot, afloat=self._afloat)
             pixels = np.array(picture)
         return pixels
+
+    def look_from(self, offset_ned: Sequence[float]) -> None:
+        """Put the camera elsewhere, for all pictures after the first; it looks at the vehicle.
+
+        Args:
+            offset_ned: of the camera from the vehicle [m], shape (3,).
+
+        Raises:
+            InvalidInputError: it is not three finite numbers, or of no length.
+            ViewerError: the viewer is closed.
+        """
+        north, east, down = finite_array("offset_ned", offset_ned, 3).tolist()
+        if not (north or east or down):
+            raise InvalidInputError("offset_ned = [0, 0, 0] is where the vehicle is; give a place beside it")
+        self._server.send(set_property(f"{CAMERA}/<object>", "position", [north, -down, east]))
 
     def clear_trail(self) -> None:
         """Begin a new episode: forget where the vehicle was.

@@ -44,6 +44,11 @@ def blue_pixels(picture: np.ndarray) -> int:
     return int(np.sum((blue > 180) & (blue > green + 60) & (blue > red + 100)))
 
 
+def seen_from(viewer: OffscreenViewer, offset: list[float]) -> np.ndarray:
+    viewer.look_from(offset)
+    return viewer.render(NEAR)
+
+
 def steepness(picture: np.ndarray) -> float:
     """The mean square of the steps from one pixel to the next, which smooth edges take in several."""
     grey = picture.astype(float).mean(axis=2)
@@ -71,6 +76,21 @@ def test_pixels_change_when_and_only_when_something_moves(viewer: OffscreenViewe
     assert share_changed(first, viewer.render(MOVED)) > 0.01
     turned = snapshot(time=0.2, quaternion_body_to_ned=yawed(1.0), current_ned=[0.2, 0.0, 0.0])
     assert share_changed(viewer.render(MOVED), viewer.render(turned)) > 0.01
+
+
+def test_the_vehicle_grows_as_the_camera_comes_near_and_is_seen_from_below() -> None:
+    places = ([3.0, 0.0, -3.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0])
+    with OffscreenViewer(ROV, WIDTH, HEIGHT, caption=False) as moved:
+        moved.render(NEAR)
+        far, near, below = (blue_pixels(seen_from(moved, place)) for place in places)
+    assert near > 4 * far > 0
+    assert below < near, "the floats are above the frame"
+
+
+@pytest.mark.parametrize("offset", [(0.0, 0.0, 0.0), (1.0, float("nan"), 0.0), (1.0, 2.0)])
+def test_impossible_cameras_are_refused(viewer: OffscreenViewer, offset: tuple[float, ...]) -> None:
+    with pytest.raises(InvalidInputError, match="offset_ned"):
+        viewer.look_from(offset)
 
 
 def test_edges_are_smooth_where_that_is_asked_for(viewer: OffscreenViewer) -> None:

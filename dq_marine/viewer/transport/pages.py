@@ -156,7 +156,12 @@ LEGEND = f"<style>{_file('legend.css')}</style>\n{_file('legend.html')}"
 EDGES = _inline(_file("edges.js"))
 """Before a page's viewer is made."""
 
-SEA = _inline(_file("sea.js")) + _inline(_file("wake.js")) + _inline(_file("beams.js"))
+SEA = (
+    _inline(_file("sea.js"))
+    + _inline(_file("dive.js"))
+    + _inline(_file("wake.js"))
+    + _inline(_file("beams.js"))
+)
 
 LIVE_PAGE = _page(
     "dq-marine",

@@ -118,7 +118,7 @@ class Drawing:
         return [
             *draw_water(surroundings, scale.sight),
             *draw_floor(scale, afloat=self._shape.floats),
-            *draw_surface(scale, surroundings),
+            *draw_surface(scale, self._shape),
             *(draw_specks(scale) if surroundings.specks else ()),
             *draw_shadow(self._shape),
             *draw_wake(self._shape),
@@ -142,10 +142,10 @@ class Drawing:
         sea = (snapshot.sea, snapshot.sea_start)
         if sea == self._sea:
             return []
-        self._sea, surroundings = sea, surroundings_of(self._shape)
+        self._sea = sea
         if snapshot.sea is None:
-            return draw_surface(self._scale, surroundings)
-        return draw_waves(self._scale, surroundings, snapshot.sea, snapshot.sea_start)
+            return draw_surface(self._scale, self._shape)
+        return draw_waves(self._scale, self._shape, snapshot.sea, snapshot.sea_start)
 
     def placements(self, snapshot: Snapshot) -> dict[str, Placement]:
         """Where everything that can move stands at a snapshot, by path."""

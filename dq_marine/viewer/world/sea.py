@@ -17,7 +17,7 @@ from dq_marine.viewer.meshes import Mesh, flat_polygon, grid_triangles, joined, 
 from dq_marine.viewer.snapshot import FloatArray, Shape
 from dq_marine.viewer.transport.messages import Message, set_object
 from dq_marine.viewer.transport.three_json import Look, Painted, painted_surface, rgb, surface
-from dq_marine.viewer.world.water import Surroundings
+from dq_marine.viewer.world.water import both_sides, render_order, surroundings_of
 
 FLOOR = "/world/floor"
 SURFACE = "/world/surface"
@@ -91,19 +91,19 @@ def draw_floor(scale: SeaScale, *, afloat: bool) -> list[Message]:
     return [set_object(sand, sand_json), set_object(grid, grid_json)]
 
 
-def draw_surface(scale: SeaScale, water: Surroundings) -> list[Message]:
-    """The surface of a calm sea, to be placed at depth zero."""
-    sheet = _sheet(scale)
+def draw_surface(scale: SeaScale, shape: Shape) -> list[Message]:
+    """The surface of a calm sea around a vehicle, to be placed at depth zero."""
+    sheet, water = _sheet(scale), surroundings_of(shape)
     colors = rgb(water.surface) * _mottle(sheet, scale.period, water.surface_patches)
-    return [_surface_message(sheet, colors, water, {})]
+    return [_surface_message(sheet, colors, shape, {})]
 
 
-def draw_waves(scale: SeaScale, water: Surroundings, sea: Sea, start: float) -> list[Message]:
+def draw_waves(scale: SeaScale, shape: Shape, sea: Sea, start: float) -> list[Message]:
     """The surface of a sea with its waves, to be placed at depth zero above the vehicle; the page raises its points.
 
     Args:
         scale: of the surroundings.
-        water: its colours.
+        shape: the vehicle.
         sea: the waves.
         start: time of the sea when the clock shows 0 [s].
     """
@@ -116,16 +116,16 @@ def draw_waves(scale: SeaScale, water: Surroundings, sea: Sea, start: float) -> 
         wave_number * np.sin(directions),
         np.mod(sea.phases + frequencies * start, 2.0 * np.pi),
     )
-    tint = rgb(water.surface)
-    data = {"waves": np.column_stack(columns).tolist(), "tint": tint.tolist()}
-    return [_surface_message(sheet, np.tile(tint, (len(sheet.vertices), 1)), water, data)]
+    colors = np.tile(rgb(surroundings_of(shape).surface), (len(sheet.vertices), 1))
+    return [_surface_message(sheet, colors, shape, {"waves": np.column_stack(columns).tolist()})]
 
 
-def _surface_message(sheet: Mesh, colors: FloatArray, water: Surroundings, data: dict[str, Any]) -> Message:
+def _surface_message(sheet: Mesh, colors: FloatArray, shape: Shape, data: dict[str, Any]) -> Message:
+    water = surroundings_of(shape)
     look = Look(opacity=water.surface_opacity, lit=False, both_sides=True)
-    drawn = surface(SURFACE, sheet, colors, look, data)
-    if water.surface_opacity > 0.5:  # before other things that can be seen through, which it must not cover
-        drawn["object"]["renderOrder"] = -1
+    told = {"tint": rgb(water.surface).tolist(), "sides": both_sides(shape)}
+    drawn = surface(SURFACE, sheet, colors, look, data | told)
+    drawn["object"]["renderOrder"] = render_order(water)
     return set_object(SURFACE, drawn)
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dq_marine.viewer.placement import Placement, Vector3
 from dq_marine.viewer.snapshot import Shape
 from dq_marine.viewer.transport.messages import Message, set_object, set_property
-from dq_marine.viewer.transport.three_json import Json, bare_object
+from dq_marine.viewer.transport.three_json import Json, bare_object, rgb
 
 Color = tuple[float, float, float]
 """Red, green, blue, within [0, 1]."""
@@ -56,9 +56,38 @@ ON_THE_SURFACE = Surroundings(
 )
 
 
+SEEN_THROUGH = 0.55
+"""Opacity of the surface from above where the vehicle is below it."""
+
+COVERING = 0.5
+"""Opacity from which the surface is drawn before other things that can be seen through, which it must not cover."""
+
+
 def surroundings_of(shape: Shape) -> Surroundings:
     """The surroundings that a vehicle is at home in."""
     return ON_THE_SURFACE if shape.floats else UNDER_WATER
+
+
+def both_sides(shape: Shape) -> Json:
+    """What is around on either side of the surface, for the page, which knows on which side the camera is."""
+    air = ON_THE_SURFACE if shape.floats else replace(ON_THE_SURFACE, surface_opacity=SEEN_THROUGH)
+    return {"above": _side(air), "below": _side(UNDER_WATER)}
+
+
+def _side(colors: Surroundings) -> Json:
+    return {
+        "top": list(colors.above),
+        "bottom": list(colors.below),
+        "murk": dict(zip("rgb", colors.murk, strict=True)),
+        "tint": rgb(colors.surface).tolist(),
+        "opacity": colors.surface_opacity,
+        "order": render_order(colors),
+    }
+
+
+def render_order(colors: Surroundings) -> int:
+    """Return when the surface is drawn: see `COVERING`."""
+    return -1 if colors.surface_opacity > COVERING else 0
 
 
 MESHCAT_SCENERY = (
