@@ -7,6 +7,8 @@ from dq_marine.envs.core.definition import TaskDefinition as TaskDefinition
 from dq_marine.envs.core.goal_env import GoalMarineEnv as GoalMarineEnv
 from dq_marine.envs.core.marine_env import MarineEnv as MarineEnv
 from dq_marine.envs.core.module_task import define_task as define_task
+from dq_marine.envs.core.perturbations import PERTURBATIONS as PERTURBATIONS
+from dq_marine.envs.core.perturbations import Perturbation as Perturbation
 from dq_marine.envs.core.registry import register_task as register_task
 from dq_marine.envs.core.registry import registered_tasks as registered_tasks
 from dq_marine.envs.core.registry import task_named as task_named

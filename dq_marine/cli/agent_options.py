@@ -15,7 +15,9 @@ from dq_marine.agents.keywords import with_changes
 from dq_marine.agents.policies import is_exported
 from dq_marine.agents.preset_files import read_environment, read_settings, validate_settings
 from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
+from dq_marine.checks import one_of
 from dq_marine.cli.keyword_values import read_keywords
+from dq_marine.envs.core.perturbations import PERTURBATIONS
 from dq_marine.envs.scenarios.model import Scenario
 from dq_marine.errors import InvalidInputError
 from dq_marine.vehicles import vehicle_names
@@ -33,6 +35,7 @@ class EnvironmentOptions:
         level: of the task's difficulty.
         current: as `parsed_current` takes it.
         keywords: as `--set` takes them.
+        perturb: names of perturbations; they win over what settings say of their keywords.
     """
 
     task: str | None = None
@@ -40,6 +43,7 @@ class EnvironmentOptions:
     level: str | None = None
     current: str | None = None
     keywords: tuple[str, ...] = ()
+    perturb: tuple[str, ...] = ()
 
     def applied(self, settings: EnvironmentSettings) -> EnvironmentSettings:
         """Return settings with what was asked for in its place.
@@ -48,7 +52,13 @@ class EnvironmentOptions:
             InvalidInputError: an option is wrong, two contradict each other, or the environment has no such keyword.
         """
         changes = read_keywords(self.keywords)
-        for name, value in (("vehicle", self.vehicle), ("level", self.level), ("current", self.current)):
+        options = {
+            "vehicle": self.vehicle,
+            "level": self.level,
+            "current": self.current,
+            "perturb": " ".join(self.perturb) or None,
+        }
+        for name, value in options.items():
             if value is not None and name in changes:
                 raise InvalidInputError(
                     f"--{name} {value} and --set {name}=... both say it; give one of them"
@@ -59,6 +69,10 @@ class EnvironmentOptions:
             changes["level"] = self.level
         if self.current is not None:
             changes["current"] = parsed_current(self.current)
+        if self.perturb:
+            changes["perturb"] = list(self.perturb)
+            said = [PERTURBATIONS[one_of("--perturb", name, PERTURBATIONS)].keywords for name in self.perturb]
+            changes = {keyword: None for keywords in said for keyword in keywords} | changes
         if isinstance(changes.get("vehicle"), str):
             changes["vehicle"] = _findable(changes["vehicle"])
         return with_changes(settings, changes, identifier=self.task)
@@ -71,6 +85,7 @@ class EnvironmentOptions:
             "level": self.level,
             "current": self.current,
             "set": self.keywords or None,
+            "perturb": self.perturb or None,
         }
 
 

@@ -15,6 +15,7 @@ from dq_marine.cli.options import (
     CurrentOption,
     EnvironmentPresetOption,
     LevelOption,
+    PerturbOption,
     PoliciesOption,
     RunsOption,
     ScenarioOption,
@@ -74,6 +75,7 @@ def compare(
     vehicle: VehicleOption = None,
     level: LevelOption = None,
     current: CurrentOption = None,
+    perturb: PerturbOption = None,
     set_: SetOption = None,
     seconds: Annotated[
         float | None,
@@ -122,7 +124,7 @@ def compare(
         raise InvalidInputError(
             f"--step {step:g} goes with --integrators; the step of a flight is --set control_period=... or substeps=..."
         )
-    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
+    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
     begun = None if scenario is None else load_scenario(scenario, task=task)
     runs, variants = [*(run or []), *requested_policies(policy or [])], read_variants(with_ or [])
     environment = requested_environment(runs, options, preset=preset, scenario=begun)

@@ -14,6 +14,7 @@ from dq_marine.cli.options import (
     CurrentOption,
     EnvironmentPresetOption,
     LevelOption,
+    PerturbOption,
     PoliciesOption,
     PrintPresetOption,
     RunsOption,
@@ -33,6 +34,7 @@ EXAMPLES = examples(
     "dq-marine evaluate",
     "dq-marine evaluate --run runs/ppo --agent controller --agent zero --episodes 100",
     "dq-marine evaluate --run runs/ppo --set current=0.5",
+    "dq-marine evaluate --run runs/ppo --agent controller --perturb payload --perturb late_actions",
     "dq-marine evaluate --policy policy.onnx --agent controller",
     "dq-marine evaluate --scenario StationKeeping/strong_current --scenario StationKeeping/failed_dvl",
     "dq-marine evaluate --scenario Encounter --agent controller --json imazu.json",
@@ -86,6 +88,7 @@ def evaluate(
     vehicle: VehicleOption = None,
     level: LevelOption = None,
     current: CurrentOption = None,
+    perturb: PerturbOption = None,
     set_: SetOption = None,
     json: Annotated[Path | None, typer.Option("--json", help="Write the scores into this file, too.")] = None,
     trajectories: Annotated[
@@ -111,7 +114,7 @@ def evaluate(
 
     runs = [*(run or []), *requested_policies(policy or [])]
     baselines = agent or ([] if runs else [Baseline(name) for name in BASELINES])
-    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
+    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
     if scenario:
         flights = Flights(scenario, options, preset, baselines, runs, episodes or 1, seed)
         evaluate_scenarios(

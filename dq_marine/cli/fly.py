@@ -17,6 +17,7 @@ from dq_marine.cli.options import (
     CurrentOption,
     EnvironmentPresetOption,
     LevelOption,
+    PerturbOption,
     PolicyOption,
     PrintPresetOption,
     ScenarioOption,
@@ -121,6 +122,7 @@ def fly(
     vehicle: VehicleOption = None,
     level: LevelOption = None,
     current: CurrentOption = None,
+    perturb: PerturbOption = None,
     set_: SetOption = None,
     seconds: Annotated[
         float | None,
@@ -155,7 +157,7 @@ def fly(
         raise InvalidInputError(f"{' and '.join(given)} name {number} agents; give one of them")
     runs = requested_policies([policy]) if policy is not None else [] if run is None else [run]
     baselines = [] if runs else [agent or Baseline.CONTROLLER]
-    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
+    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
     begun = None if scenario is None else load_scenario(scenario, task=task)
     environment = requested_environment(runs, options, preset=preset, scenario=begun)
     if record is not None and not (panel or teleop):

@@ -85,6 +85,15 @@ CurrentOption = Annotated[
         show_default="0.3, or the preset's or run's",
     ),
 ]
+PerturbOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--perturb",
+        metavar="NAME",
+        help="What goes otherwise than planned: late_actions, old_observations, lost_thruster, payload, "
+        "unknown_vehicle, strong_current or faulty_sensors; may be repeated. It wins over what a preset or a run says.",
+    ),
+]
 SetOption = Annotated[
     list[str] | None,
     typer.Option(

@@ -13,6 +13,7 @@ from dq_marine.cli.options import (
     CurrentOption,
     EnvsOption,
     LevelOption,
+    PerturbOption,
     PrintPresetOption,
     SetOption,
     TaskOption,
@@ -65,6 +66,7 @@ def train(
     vehicle: VehicleOption = None,
     level: LevelOption = None,
     current: CurrentOption = None,
+    perturb: PerturbOption = None,
     set_: SetOption = None,
     resume: Annotated[
         bool, typer.Option("--resume", help="Continue from the run's latest checkpoint.")
@@ -85,7 +87,7 @@ def train(
 
     if run is None and (resume or not only_print):
         raise typer.BadParameter("name a folder for the run, as in --run runs/ppo", param_hint="--run")
-    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
+    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
     if resume:
         _refuse_with_resume(
             algorithm=algorithm, preset=preset, envs=envs, seed=seed, force=force, **options.given()

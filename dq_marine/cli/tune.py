@@ -14,6 +14,7 @@ from dq_marine.cli.options import (
     CurrentOption,
     EnvsOption,
     LevelOption,
+    PerturbOption,
     ProcessesOption,
     SetOption,
     TaskOption,
@@ -56,6 +57,7 @@ def tune(
     vehicle: VehicleOption = None,
     level: LevelOption = None,
     current: CurrentOption = None,
+    perturb: PerturbOption = None,
     set_: SetOption = None,
 ) -> None:
     """Search for the hyperparameters with which an algorithm learns a task best.
@@ -73,7 +75,7 @@ def tune(
     from dq_marine.backend.workers import usable_cores
     from dq_marine.cli.agent_options import EnvironmentOptions, requested_training
 
-    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()))
+    options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
     settings = requested_training(options, algorithm=algorithm, preset=preset, timesteps=timesteps, envs=envs)
     folder, plan = StudyFolder(out), plan_of(settings, seed=seed)
     columns = (

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.errors import InvalidInputError
 from dq_marine.randomisation.congruence import (
     drawn_coupling,
     moments_of_inertia,
@@ -28,6 +29,12 @@ from dq_marine.vehicles.model import RigidBody
 Array = NDArray[np.float64]
 Each = AnyDistribution | tuple[AnyDistribution, ...] | None
 Content = dict[str, Any]
+
+THRUST = ("thrust_forward", "thrust_reverse", "gain_forward", "gain_reverse")
+"""What a propeller delivers, in a vehicle's file."""
+
+NOTHING = 1e-6
+"""Factor of what a propeller delivers that failed: it stays one, so that the vehicles of a pool are alike."""
 
 
 def varied_rigid_body(draw: RigidBodyDraw, body: RigidBody, rng: np.random.Generator) -> Content:
@@ -145,14 +152,31 @@ def varied_actuators(draw: ActuatorsDraw, vehicle: Vehicle, rng: np.random.Gener
     if draw.wrench is not None:
         limits["wrench"] = (vehicle.wrench_limits * _factors(draw.wrench, 6, rng)).tolist()
     tables = vehicle.model_dump(include={"thrusters", "azimuths", "fins"})
+    propellers = [*tables["thrusters"], *tables["azimuths"]]
     if draw.thrust is not None:
-        for propulsion in (*tables["thrusters"], *tables["azimuths"]):
-            factor = drawn(draw.thrust, rng)
-            _scale(propulsion, ("thrust_forward", "thrust_reverse", "gain_forward", "gain_reverse"), factor)
+        for propeller in propellers:
+            _scale(propeller, THRUST, drawn(draw.thrust, rng))
     if draw.fins is not None:
         for fin in tables["fins"]:
             fin["coefficients"] = (np.array(fin["coefficients"]) * drawn(draw.fins, rng)).tolist()
+    if draw.lost:
+        for index in _drawn_to_fail(draw.lost, len(propellers), rng):
+            _scale(propellers[index], THRUST, NOTHING)
     return tables | {"limits": limits}
+
+
+def _drawn_to_fail(lost: int, propellers: int, rng: np.random.Generator) -> list[int]:
+    """Return which propellers fail.
+
+    Raises:
+        InvalidInputError: none would be left.
+    """
+    if lost >= propellers:
+        raise InvalidInputError(
+            f"actuators.lost = {lost}, and the vehicle has {propellers} propellers; "
+            "give a vehicle of more, or lose less"
+        )
+    return rng.choice(propellers, lost, replace=False).tolist()  # type: ignore[no-any-return]
 
 
 def _scale(table: Content, names: tuple[str, ...], factor: float) -> None:

@@ -105,11 +105,13 @@ class ActuatorsDraw(Table):
         wrench: factors of the largest force and moment of each axis.
         thrust: factor of the thrust of every propeller, drawn separately for each.
         fins: factor of the force of every fin, drawn separately for each.
+        lost: how many propellers, drawn anew for each vehicle, give nothing.
     """
 
     wrench: Factors6 | None = None
     thrust: Factor | None = None
     fins: Factor | None = None
+    lost: Annotated[int, Field(ge=0, le=8)] = 0
 
 
 class CurrentSpeed(Table):

@@ -31,6 +31,10 @@ KICKS = ("l_stable", "implicit_node")
 MOST_SUBSTEPS = 10_000
 """Integrator steps in a control period: more would hold the process for long, and never be needed."""
 
+MOST_DELAY = 10
+"""Control periods by which actions or observations may be late: they are part of an episode's memory, and more would
+take long to compile."""
+
 DEFAULT_CURRENT = 0.3
 """Largest speed of the current [m/s] that environments draw where nothing is said."""
 
@@ -54,6 +58,8 @@ class SettingsKeywords(TypedDict, total=False):
     control_period: float
     substeps: int
     sensors: Sensors
+    action_delay: int
+    observation_delay: int
     randomise: RandomisationLike | None
     vehicle_pool: int
     vehicle_seed: int
@@ -90,6 +96,9 @@ class Settings:
         substeps: integrator steps in a control period.
         sensors: what an agent is told by, see `dq_marine.task.sensors.build`: "auv", a list of sensors, or a
             dictionary; None for the motion as it is.
+        action_delay: control periods after which an action reaches the vehicle; until the first does, none drives it.
+        observation_delay: control periods by which what an agent is shown is old; at an episode's start it is shown the
+            first observation until there is an older one. Rewards and `info` are of now.
         randomise: lets each episode fly another vehicle, drawn as a randomisation says: "default", the name of another
             one that ships, the path of a TOML file, or a `Randomisation`.
         vehicle_pool: how many vehicles are drawn beforehand; each episode takes one of them.
@@ -114,6 +123,8 @@ class Settings:
     control_period: float = 0.1
     substeps: int = 4
     sensors: Sensors = None
+    action_delay: int = 0
+    observation_delay: int = 0
     randomise: RandomisationLike | None = None
     vehicle_pool: int = 256
     vehicle_seed: int = 0
@@ -131,6 +142,10 @@ class Settings:
             "control_period": finite_number("control_period", self.control_period),
             "substeps": positive_integer("substeps", self.substeps),
             "sensors": sensors_of(self.sensors),
+            "action_delay": whole_number("action_delay", self.action_delay, least=0, most=MOST_DELAY),
+            "observation_delay": whole_number(
+                "observation_delay", self.observation_delay, least=0, most=MOST_DELAY
+            ),
             "vehicle_pool": positive_integer("vehicle_pool", self.vehicle_pool),
             "vehicle_seed": whole_number("vehicle_seed", self.vehicle_seed, least=0),
         }

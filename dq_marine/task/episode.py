@@ -90,6 +90,16 @@ def own_sensing(task: Task) -> Sensing:
     return Sensing(sense_own, task.sense_draws, sense_own, task.sense_draws)
 
 
+def act_at_once(act: Callable[..., Any]) -> Callable[..., Any]:
+    """Return what an action does as it is: actions are taken at once."""
+    return act
+
+
+def all_is_shown(parameters: Any, memory: Any, motion: Motion) -> Any:
+    """Return the memory: what is observed is shown at once, so that nothing is kept to be shown."""
+    return memory
+
+
 @dataclass(frozen=True)
 class EpisodeTask:
     """The functions that an episode runs.
@@ -106,6 +116,8 @@ class EpisodeTask:
         outcome: (parameters, memory, motion, sum of the squares of the action) -> TaskOutcome.
         no_rewards: the terms of the reward, all zero.
         sensing: what sensors do to the memory.
+        delay_act: (`task.action.Act`) -> the same, for actions that arrive late; see `task.delays`.
+        begin_showing: (parameters, memory, motion) -> memory of an episode whose first observation is made anew.
     """
 
     draws: int
@@ -116,6 +128,8 @@ class EpisodeTask:
     outcome: Callable[[EpisodeParameters, Any, Motion, float], TaskOutcome]
     no_rewards: Any
     sensing: Sensing = NO_SENSORS
+    delay_act: Callable[[Callable[..., Any]], Callable[..., Any]] = act_at_once
+    begin_showing: Callable[[Any, Any, Motion], Any] = all_is_shown
 
 
 def no_sum(total: float, terms: tuple[float, ...]) -> float:

@@ -61,7 +61,7 @@ def make_control_period(
 
     Where the composition has actuators, the task must be made by `with_actuators`.
     """
-    act = (
+    act = task.delay_act(
         make_actuator_action(composition)
         if composition.actuation.channels
         else make_wrench_action(composition)

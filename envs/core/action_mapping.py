@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -112,8 +113,34 @@ class ActuatorsMapping:
         return values, twist_from_momentum(parameters.inertia, episode.body.momentum)
 
 
-def action_mapping_of(scene: Scene) -> ActionMapping:
-    """Return what an action does in a scene."""
+class LateMapping:
+    """An action does the same as by another mapping, but some control periods later: see `dq_marine.task.delays`."""
+
+    def __init__(self, mapping: ActionMapping) -> None:
+        """Take what an action does when it has arrived."""
+        self._mapping = mapping
+        self.size, self.places, self.names = mapping.size, mapping.places, mapping.names
+
+    def task(self, task: EpisodeTask) -> EpisodeTask:
+        """Return the task as for an action at once: the delay is put around it."""
+        return self._mapping.task(task)
+
+    def wrench_body(
+        self, vehicle: Vehicle, parameters: StepParameters, episode: Episode
+    ) -> NDArray[np.float64]:
+        """Return the wrench of the action that arrives next, with which the memory begins, or of the actuators."""
+        arriving = replace(episode, action=episode.memory[: self.size])
+        return self._mapping.wrench_body(vehicle, parameters, arriving)
+
+    def thrusts(self, vehicle: Vehicle, parameters: StepParameters, episode: Episode) -> tuple[Thrust, ...]:
+        """Return the force of each actuator now; none where actions are wrenches."""
+        return self._mapping.thrusts(vehicle, parameters, episode)
+
+
+def action_mapping_of(scene: Scene, action_delay: int = 0) -> ActionMapping:
+    """Return what an action does in a scene, so many control periods later."""
+    if action_delay:
+        return LateMapping(action_mapping_of(scene))
     if scene.composition.actuation.channels:
         return ActuatorsMapping(scene)
     return WrenchMapping(scene.vehicle.wrench_limits)

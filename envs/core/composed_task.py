@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.backend.control_period import compiled_control_period
-from dq_marine.backend.packing import structure_type
+from dq_marine.backend.packing import pack, structure_type, unpack
 from dq_marine.checks import finite_number, shown
 from dq_marine.envs.core.action_mapping import ActionMapping, action_mapping_of
 from dq_marine.envs.core.currents import check_current
@@ -19,6 +19,7 @@ from dq_marine.envs.core.definition import EpisodeContext, Observed, TaskDefinit
 from dq_marine.envs.core.goals import check_goals
 from dq_marine.envs.core.infos import Infos
 from dq_marine.envs.core.observation import Places, places_of
+from dq_marine.envs.core.perturbations import perturbed
 from dq_marine.envs.core.registry import arrived, task_named, tasks_suiting, travelling
 from dq_marine.envs.core.rewards import checked_extra_rewards
 from dq_marine.envs.core.start import at_origin, checked_options
@@ -30,12 +31,13 @@ from dq_marine.physics.waves.loads import WaveLoads
 from dq_marine.physics.waves.sea import Sea
 from dq_marine.physics.wind.build import Wind
 from dq_marine.simulation.settings import Settings, VehicleLike
+from dq_marine.task.delays import Delays, with_delays
 from dq_marine.task.episode import EpisodeParameters, episode_task
 from dq_marine.task.period import draws_of_period
 from dq_marine.task.protocol import RewardTerm
 from dq_marine.task.sensors.build import nested_numbers, shown_numbers
 from dq_marine.task.sensors.observing import with_sensors
-from dq_marine.task.start import Drawn
+from dq_marine.task.start import Drawn, make_beginning
 from dq_marine.vehicles import Vehicle
 
 SETTINGS = frozenset(one.name for one in fields(Settings))
@@ -101,12 +103,13 @@ class ComposedTask:
         extra_rewards: Sequence[RewardTerm],
         settings: Settings | None,
         level: str | None,
+        perturb: str | Sequence[str] | None,
         keywords: dict[str, Any],
     ) -> None:
         """Check everything and prepare the vehicles; see `MarineEnv` for the arguments."""
         definition = task_named(task)
         asked = dict(keywords) if vehicle is None else {**keywords, "vehicle": vehicle}
-        given = definition.at_level(level, asked)
+        given = definition.at_level(level, perturbed(definition, perturb, asked))
         of_task = {name: given.pop(name) for name in list(given) if name not in SETTINGS}
         if settings is not None and given:
             raise InvalidInputError(f"settings and {sorted(given)} are given; give the one or the others")
@@ -120,6 +123,7 @@ class ComposedTask:
             definition, definition.parameters(own, EpisodeContext(chosen.flown, chosen.control_period, {}))
         )
         check_goals(definition, definition.observations(own, chosen.flown))
+        _check_delays(definition, chosen)
         self.__dict__.update(
             definition=definition,
             settings=chosen,
@@ -257,12 +261,15 @@ class ComposedTask:
 
     def _compose(self) -> None:
         """Join the formulas and compile them; nothing of this travels."""
-        self.action_mapping = action_mapping_of(self.scene)
+        delays = Delays(self.settings.action_delay, self.settings.observation_delay)
+        self.action_mapping = action_mapping_of(self.scene, delays.action)
         functions = tuple(term.function for term in self.extra_rewards)
         task = episode_task(self.definition.task_for(self.task_settings), functions)
         instruments = tuple(one.instrument for one in self.settings.sensor_list)
         sensed = with_sensors(task, instruments) if instruments else task
-        self.task = self.action_mapping.task(sensed)
+        self.task = driven = self.action_mapping.task(sensed)
+        if any(delays):
+            self.task = with_delays(driven, delays, self.action_mapping.size, self._blank_observation())
         self._motion = make_motion(self.scene.composition)
         self.observation_places = places_of(self.observations)
         self._step = PeriodStep(
@@ -283,6 +290,13 @@ class ComposedTask:
             structure_type(self.episode_parameters({})),
             structure_type(self.blank_memory),
         )
+
+    def _blank_observation(self) -> Any:
+        """Return an observation with zeros for its numbers, to tell its structure by."""
+        parameters, drawn = self.episode_parameters({}), self._blank_start()
+        begin = make_beginning(self.scene.composition, self.task)
+        observation = begin(self.base_parameters, parameters, drawn).observation
+        return unpack(observation, np.zeros(pack(observation).size))
 
     def _blank_start(self) -> Drawn:
         return at_origin(self.task.draws, self.task.sensing.first_draws)
@@ -308,6 +322,19 @@ def _check_parameters(definition: TaskDefinition, parameters: Any) -> None:
     if not isinstance(parameters, tuple) or not hasattr(parameters, "_fields"):
         raise InvalidInputError(
             f"the parameters of {definition.id} are a {type(parameters).__name__}; return a NamedTuple of numbers"
+        )
+
+
+def _check_delays(definition: TaskDefinition, settings: Settings) -> None:
+    """Refuse old observations where goals are judged by what is observed.
+
+    Raises:
+        InvalidInputError: they are, and observations are to be late.
+    """
+    if definition.has_goals and settings.observation_delay:
+        raise InvalidInputError(
+            f"observation_delay = {settings.observation_delay}, but {definition.id} has goals, and its reward at other "
+            "goals is computed from what is observed of now; give 0"
         )
 
 

@@ -244,10 +244,10 @@ class TaskDefinition:
         if not self.levels:
             raise InvalidInputError(f"level = {shown(level)}, and {self.id} has no levels; leave it out")
         said = self.levels[one_of("level", level, self.levels)]
-        return {**{name: self._fitting(value, given) for name, value in said.items()}, **given}
+        return {**{name: self.for_vehicle(value, given) for name, value in said.items()}, **given}
 
-    def _fitting(self, value: Any, given: Mapping[str, Any]) -> Any:
-        """Return a level's value for the vehicle that is given."""
+    def for_vehicle(self, value: Any, given: Mapping[str, Any]) -> Any:
+        """Return a keyword's value for the vehicle that is given, or else the default one: see `ForVehicle`."""
         from dq_marine.vehicles import load_vehicle  # here: `import dq_marine` stays light
 
         if not isinstance(value, ForVehicle):

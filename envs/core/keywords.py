@@ -10,7 +10,7 @@ from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.errors import InvalidInputError
 from dq_marine.simulation.settings import Settings
 
-OTHERS = ("level", "reward", "max_episode_steps")
+OTHERS = ("level", "perturb", "reward", "max_episode_steps")
 """Keywords of every environment that are neither those of `Settings` nor the task's own."""
 
 NOT_WRITTEN = ("forces",)

@@ -70,6 +70,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
         extra_rewards: Sequence[RewardTerm] = (),
         settings: Settings | None = None,
         level: str | None = None,
+        perturb: str | Sequence[str] | None = None,
         render_mode: str | None = None,
         record: bool = False,
         **keywords: Unpack[SettingsKeywords],
@@ -83,6 +84,8 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
             extra_rewards: terms that are added to it.
             settings: what is simulated, as an object; or else
             level: of difficulty, one of the task's `levels`: stands for keywords, over which those that are given win.
+            perturb: what goes otherwise than the task says, by name, one or several of `dq_marine.envs.PERTURBATIONS`:
+                stands for keywords, over which those that are given win, and which win over the level's.
             keywords: those of `Settings`, with the task's own defaults, and the task's own keywords.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.
@@ -94,7 +97,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
         Warns:
             UnsuitableVehicleWarning: the task cannot be done with this vehicle.
         """
-        self._prepare(task, vehicle, reward, extra_rewards, settings, level, dict(keywords))
+        self._prepare(task, vehicle, reward, extra_rewards, settings, level, perturb, dict(keywords))
         self.render_mode = checked_render_mode(render_mode, self.metadata["render_modes"])
         self.record = bool(record)
         self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]

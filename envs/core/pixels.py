@@ -68,7 +68,15 @@ class PixelObservation(
             env: whose pictures.
             width: of the pictures [pixels].
             height: of the pictures [pixels].
+
+        Raises:
+            InvalidInputError: observations are to be late, which pictures of the present state are not.
         """
+        if env.settings.observation_delay:
+            raise InvalidInputError(
+                f"observation_delay = {env.settings.observation_delay}, and pictures are observed, which it does not "
+                "hold back; wrap the environment in gymnasium.wrappers.DelayObservation"
+            )
         RecordConstructorArgs.__init__(self, width=width, height=height)
         gym.ObservationWrapper.__init__(self, env)
         self._marine, self._size = env, (width, height)

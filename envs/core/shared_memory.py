@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from dq_marine.backend.packing import pack, unpack
 from dq_marine.task.action import ActuatedMemory
+from dq_marine.task.delays import Delayed
 from dq_marine.task.episode import EpisodeParameters
 from dq_marine.task.sensors.observing import Sensed
 from dq_marine.task.start import make_first_report
@@ -22,7 +23,7 @@ def parameters_of(env: MarineEnv) -> EpisodeParameters:
 def task_memory(env: MarineEnv) -> Any:
     """Return what the task of an environment remembers now."""
     memory = unpack(env.blank_memory, env.episode.memory)
-    while isinstance(memory, Sensed | ActuatedMemory):
+    while isinstance(memory, Sensed | ActuatedMemory | Delayed):
         memory = memory.task
     return memory
 
@@ -35,13 +36,14 @@ def write_task_memory(env: MarineEnv, memory: Any) -> None:
 def tell_again(env: MarineEnv) -> None:
     """Bring the first observation of an episode and what is told of it up to what the task remembers now."""
     episode, parameters, motion = env.episode, parameters_of(env), env.motion
-    memory = unpack(env.blank_memory, episode.memory)
+    memory = env.task.begin_showing(parameters.task, unpack(env.blank_memory, episode.memory), motion)
+    episode.memory[:] = pack(memory)
     episode.observation[:] = pack(env.task.observe(parameters.task, memory, motion))
     episode.report[:-3] = pack(make_first_report(env.task)(parameters, memory, motion))
 
 
 def _within(whole: Any, memory: Any) -> Any:
     """Return the memory of an episode with another one of the task."""
-    if isinstance(whole, Sensed | ActuatedMemory):
+    if isinstance(whole, Sensed | ActuatedMemory | Delayed):
         return whole._replace(task=_within(whole.task, memory))
     return memory

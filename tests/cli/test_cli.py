@@ -181,7 +181,7 @@ def test_python_runs_the_package_as_the_command() -> None:
         ("fly --vehicle titanic --plot x.png", r"no vehicle 'titanic'; the catalogue holds .*bluerov2_heavy"),
         ("fly --seconds -3 --plot x.png", r"seconds = -3; give"),
         ("fly --run nowhere --plot x.png", r"nowhere holds no run"),
-        ("fly --set depth=3", r"no keyword 'depth'; it takes actuation, .*weather"),
+        ("fly --set depth=3", r"no keyword 'depth'; it takes action_delay, actuation, .*weather"),
         ("fly --set vehicle=otter --vehicle otter", r"--vehicle otter and --set vehicle=\.\.\. both say it"),
         ("fly --set goal_position=[0,", r"--set goal_position=\[0,: the value is neither TOML nor JSON"),
         ("fly --run nowhere --preset ppo", r"--preset ppo and --run nowhere both say what to fly in"),

@@ -56,5 +56,14 @@ def test_the_readme_names_every_setting():
     rows = [line.split("|")[1] for line in table.splitlines() if line.startswith("| `")]
     named = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
     known = {one.name for one in fields(Settings)}
-    known |= {"level", "reward", "extra_rewards", "settings", "observation", "render_mode", "record"}
+    known |= {
+        "level",
+        "perturb",
+        "reward",
+        "extra_rewards",
+        "settings",
+        "observation",
+        "render_mode",
+        "record",
+    }
     assert named == known

@@ -115,7 +115,10 @@ def test_a_wrong_file_is_refused_by_field(case, tmp_path):
 
 
 def test_an_unknown_name_is_refused():
-    with pytest.raises(InvalidInputError, match=r"no randomisation 'wild'; there are default, published"):
+    with pytest.raises(
+        InvalidInputError,
+        match=r"no randomisation 'wild'; there are default, lost_thruster, payload, published",
+    ):
         Randomisation.load("wild")
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -51,6 +51,7 @@ def assert_physical(vehicle):
 
 @given(vehicles, st.sampled_from(randomisation_names()), seeds)
 def test_any_draw_of_any_vehicle_is_physical(vehicle, name, seed):
+    assume(name != "lost_thruster" or len(vehicle.thrusters) + len(vehicle.azimuths) > 1)
     drawn = Randomisation.load(name).draw(vehicle, seed)
     assert_physical(drawn)
     assert Vehicle.model_validate(drawn.model_dump()) == drawn
@@ -276,6 +277,36 @@ def test_propellers_and_fins_are_weaker_each_for_itself():
 
 
 # Reproducibility
+
+
+@pytest.mark.parametrize("lost", [1, 3])
+def test_so_many_propellers_are_lost_each_as_often_as_another(lost):
+    vehicle = VEHICLES["bluerov2_heavy"]
+    pool = from_tables(actuators={"lost": lost}).pool(vehicle, 400, 5)
+    gains = np.array([[one.thrust_forward or one.gain_forward for one in drawn.thrusters] for drawn in pool])
+    own = np.array([one.thrust_forward or one.gain_forward for one in vehicle.thrusters])
+    dead = gains < 1e-3 * own
+    assert (dead.sum(axis=1) == lost).all()
+    assert np.array_equal(gains[~dead], np.broadcast_to(own, gains.shape)[~dead])
+    share = lost / len(own)
+    assert (np.abs(dead.mean(axis=0) - share) < 5.0 * np.sqrt(share * (1.0 - share) / 400)).all()
+
+
+def test_the_only_propeller_cannot_be_lost():
+    with pytest.raises(
+        InvalidInputError, match=r"lost = 1, and the vehicle has 1 propellers; give a vehicle"
+    ):
+        from_tables(actuators={"lost": 1}).draw(VEHICLES["remus100"], 0)
+
+
+def test_a_payload_makes_a_submerged_vehicle_heavier_in_the_water():
+    for drawn in Randomisation.load("payload").pool(VEHICLES["bluerov2_heavy"], 50, 0):
+        own = VEHICLES["bluerov2_heavy"]
+        share = (drawn.weight - drawn.buoyant_force) / drawn.weight
+        before = (own.weight - own.buoyant_force) / own.weight
+        assert before <= share + 1e-12
+        assert share <= before + 0.03 + 1e-12
+        assert own.rigid_body.mass <= drawn.rigid_body.mass <= 1.1 * own.rigid_body.mass + 1e-9
 
 
 def test_a_seed_gives_the_same_vehicles():

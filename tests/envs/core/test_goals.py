@@ -48,6 +48,11 @@ def test_the_observation_is_a_dictionary_that_checkers_accept(example):
     check_env(env.unwrapped, skip_render_check=True)
 
 
+def test_old_observations_are_refused_by_which_goals_are_judged(example):
+    with pytest.raises(InvalidInputError, match=r"observation_delay = 2, but .* has goals.*give 0"):
+        gym.make(example.ID, observation_delay=2)
+
+
 def test_parts_are_the_positions_that_they_are_named_for(example):
     env = gym.make(example.ID)
     for observation, *_ in flight(env):
