@@ -17,6 +17,7 @@ EXAMPLES = examples(
     "dq-marine leaderboard",
     "dq-marine leaderboard --task StationKeeping --episodes 20",
     "dq-marine leaderboard --vehicle remus100 --vehicle otter --level easy --level hard",
+    "dq-marine leaderboard --task StationKeeping --perturb payload --perturb late_actions --perturb lost_thruster",
     "dq-marine leaderboard --scenarios",
     "dq-marine leaderboard --scenarios --episodes 0 --task Encounter --agent controller --agent zero",
     "dq-marine leaderboard --scenarios --task StationKeeping --agent controller --policy runs/ppo",
@@ -36,6 +37,15 @@ def leaderboard(
     level: Annotated[
         list[str] | None,
         typer.Option("--level", help="Of difficulty; may be repeated.", show_default="medium"),
+    ] = None,
+    perturb: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--perturb",
+            metavar="NAME",
+            help="What goes otherwise than planned, as `dq-marine evaluate --help` lists it; may be repeated. Each is flown by "
+            "itself, beside what is planned.",
+        ),
     ] = None,
     agent: Annotated[list[Baseline] | None, baselines_option("controller, unless --policy is given")] = None,
     policy: Annotated[
@@ -88,7 +98,7 @@ def leaderboard(
     tasks = task or list(dict.fromkeys(one.task for one in policies if not agents))
     wanted: list[Entry] = []
     if episodes:
-        wanted += entries(tasks, vehicle or [], level or ["medium"], agents, policies)
+        wanted += entries(tasks, vehicle or [], level or ["medium"], agents, policies, perturb or [])
     if scenarios:
         wanted += scenario_entries(tasks, vehicle or [], agents, policies)
     plan = Plan(episodes, seed)
@@ -109,7 +119,7 @@ def leaderboard(
             bar.stop()
             console.print(f"Stopped; {len(kept.results)} results are kept in {kept.path}", soft_wrap=True)
             raise typer.Exit(130) from None
-    options = {"task": task, "vehicle": vehicle, "level": level, "agent": agents, "policy": policy}
+    options = {"task": task, "vehicle": vehicle, "level": level, "perturb": perturb, "agent": agents, "policy": policy}
     flags = ["--scenarios"] if scenarios else []
     write_whole(out, markdown(results, _command(options, flags, plan), _circumstances()))
     console.print(f"Wrote {out} and {kept.path}", soft_wrap=True)

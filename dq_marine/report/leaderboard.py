@@ -8,6 +8,7 @@ import multiprocessing
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
+from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,8 +18,9 @@ from dq_marine.agents.environments import make_environment, scenario_settings
 from dq_marine.agents.evaluation.episodes import Episode
 from dq_marine.agents.evaluation.evaluation import evaluate
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.checks import shown
+from dq_marine.checks import one_of, shown
 from dq_marine.envs.core.definition import TaskDefinition
+from dq_marine.envs.core.perturbations import PERTURBATIONS
 from dq_marine.envs.core.registry import shipped_tasks, task_called
 from dq_marine.envs.scenarios.files import load_scenario, scenarios_of
 from dq_marine.errors import InvalidInputError
@@ -35,13 +37,14 @@ ONLY_SHOWING = ("cli", "manoeuvres", "viewer", "report", "validation", "identifi
 
 
 class Entry(NamedTuple):
-    """Who flies what: id of the task, vehicle, level ("" for none), agent; and the name of a scenario, "" for none."""
+    """Who flies what: id of the task, vehicle, level ("" for none), agent; names of scenario and perturbation, or ""."""
 
     task: str
     vehicle: str
     level: str
     agent: str
     scenario: str = ""
+    perturbation: str = ""
 
 
 @dataclass(frozen=True)
@@ -96,8 +99,9 @@ def entries(
     levels: Sequence[str],
     agents: Sequence[str],
     policies: Sequence[Policy] = (),
+    perturbations: Sequence[str] = (),
 ) -> list[Entry]:
-    """Return every task with every vehicle that it suits, at every level that it has.
+    """Return every task with every vehicle that it suits, at every level that it has, as planned and perturbed.
 
     Args:
         tasks: names or ids; none for all that ship.
@@ -105,10 +109,13 @@ def entries(
         levels: by name.
         agents: baselines by name; where one cannot fly it is left out.
         policies: trained ones, each for its task and vehicle, at the levels whose environments it fits.
+        perturbations: by name; where a vehicle cannot have one, such as a lost propeller, it is left out.
 
     Raises:
-        InvalidInputError: a task, a vehicle or a level is unknown, or nothing is left.
+        InvalidInputError: a task, a vehicle, a level or a perturbation is unknown, or nothing is left.
     """
+    for name in perturbations:
+        one_of("perturb", name, PERTURBATIONS)
     chosen = chosen_tasks(tasks)
     loaded = {name: load_vehicle(name) for name in vehicles or vehicle_names()}
     for task in chosen:
@@ -117,11 +124,14 @@ def entries(
     found = []
     for task in chosen:
         for name in (one for one, vehicle in loaded.items() if task.unsuitable(vehicle) is None):
-            for level in levels:
-                environment = environment_of(Entry(task.id, name, level, ""))
+            for level, perturbation in product(levels, ("", *perturbations)):
+                entry = Entry(task.id, name, level, "", perturbation=perturbation)
+                environment = environment_of(entry)
+                if perturbation and not _can_be_made(environment):
+                    continue
                 able = able_baselines(agents, environment)
                 able += [one.name for one in policies if one.vehicle == name and one.fits(environment)]
-                found += [Entry(task.id, name, level, agent) for agent in able]
+                found += [entry._replace(agent=agent) for agent in able]
     if not found:
         raise InvalidInputError(
             f"none of the tasks {[task.id for task in chosen]} suits any of the vehicles {list(loaded)}, or none of "
@@ -163,6 +173,14 @@ def scenario_entries(
     return found
 
 
+def _can_be_made(environment: EnvironmentSettings) -> bool:
+    try:
+        make_environment(environment).close()
+    except InvalidInputError:
+        return False
+    return True
+
+
 def able_baselines(names: Sequence[str], environment: EnvironmentSettings) -> list[str]:
     """Return those of some baselines that can fly in an environment: LQR and MPC cannot in every one.
 
@@ -193,7 +211,9 @@ def environment_of(entry: Entry) -> EnvironmentSettings:
     """Return what an entry is flown in."""
     if entry.scenario:
         return scenario_settings(load_scenario(f"{entry.task}/{entry.scenario}"))
-    return EnvironmentSettings(id=entry.task, keywords={"vehicle": entry.vehicle, "level": entry.level})
+    perturbed = {"perturb": entry.perturbation} if entry.perturbation else {}
+    keywords = {"vehicle": entry.vehicle, "level": entry.level, **perturbed}
+    return EnvironmentSettings(id=entry.task, keywords=keywords)
 
 
 def fly_entry(entry: Entry, plan: Plan, policy: Policy | None = None) -> Result:

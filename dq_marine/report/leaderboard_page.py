@@ -51,16 +51,19 @@ def markdown(results: Sequence[Result], command: str, circumstances: str) -> str
 
 
 def seeded_table(results: Sequence[Result]) -> list[str]:
-    """Return the lines of a table of a task's seeded episodes: a row for each vehicle, level and agent."""
+    """Return the lines of a table of a task's seeded episodes: a row for each vehicle, level, perturbation and agent."""
     names = _metrics(results)
-    heading = ["vehicle", "level", "agent", *_headings(names, results), "ended early"]
+    perturbed = any(one.entry.perturbation for one in results)
+    who = ["vehicle", "level", *(["perturbed by"] if perturbed else []), "agent"]
+    heading = [*who, *_headings(names, results), "ended early"]
     rows = []
     for one in results:
         figures = [_with_interval(one.figures[name]) for name in (*names, *OF_ACTIONS)]
         early = f"{one.score['early_end_rate']:.1%}"
         cells = [_success(one.successes, one.episodes), *figures, *_collisions([one]), early]
-        rows.append([one.entry.vehicle, one.entry.level, one.entry.agent, *cells])
-    return _table(heading, rows, texts=3)
+        by = [one.entry.perturbation or "nothing"] if perturbed else []
+        rows.append([one.entry.vehicle, one.entry.level, *by, one.entry.agent, *cells])
+    return _table(heading, rows, texts=len(who))
 
 
 def agents_table(results: Sequence[Result]) -> list[str]:

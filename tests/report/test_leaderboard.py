@@ -59,6 +59,37 @@ def test_agents_with_a_model_fly_where_they_can():
         scenario_entries(["Docking"], [], ["lqr"])
 
 
+@pytest.mark.sweep  # it makes environments of several vehicles
+def test_perturbed_entries_stand_beside_those_that_go_as_planned_where_the_vehicle_can_have_them():
+    perturbations = ["late_actions", "lost_thruster"]
+    found = entries(
+        ["DepthHeading"], ["remus100", "bluerov2"], ["easy"], ["controller"], perturbations=perturbations
+    )
+    assert [(one.vehicle, one.perturbation) for one in found] == [
+        ("remus100", ""),
+        ("remus100", "late_actions"),
+        ("bluerov2", ""),
+        ("bluerov2", "late_actions"),
+        ("bluerov2", "lost_thruster"),
+    ]
+    assert environment_of(found[1]).keywords["perturb"] == "late_actions"
+    assert "perturb" not in environment_of(found[0]).keywords
+    with pytest.raises(InvalidInputError, match="perturb = 'storm' is unknown"):
+        entries([], [], ["easy"], ["controller"], perturbations=["storm"])
+
+
+def test_the_page_says_what_was_perturbed():
+    error = {"position_error_m": Interval(0.125, 0.1, 0.15)}
+    results = [
+        result_of(ENTRY, 20, 20, **error),
+        result_of(ENTRY._replace(perturbation="payload"), 7, 20, **error),
+    ]
+    page = markdown(results, "dq-marine leaderboard", "Measured.")
+    assert "| vehicle | level | perturbed by | agent | success |" in page
+    assert "| bluerov2_heavy | medium | nothing | controller | 20 of 20" in page
+    assert "| bluerov2_heavy | medium | payload | controller | 7 of 20" in page
+
+
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
