@@ -179,6 +179,26 @@ class EvaluationSettings(Settings):
     episodes: Count
 
 
+class ImitationSettings(Settings):
+    """How a policy begins as the copy of a baseline.
+
+    Attributes:
+        teacher: the baseline.
+        episodes: that it flies.
+        noise: standard deviation of what its actions are disturbed by while it flies, over the actuators' reach.
+        epochs: how often what it flew is learned from.
+        batch_size: of control periods.
+        learning_rate: of this beginning.
+    """
+
+    teacher: Literal["controller", "lqr", "mpc"] = "controller"
+    episodes: Count = 40
+    noise: Annotated[float, Field(ge=0.0, le=1.0)] = 0.1
+    epochs: Count = 20
+    batch_size: Count = 256
+    learning_rate: Positive = 1e-3
+
+
 class TrainingSettings(Settings):
     """Everything that a training run follows from, together with its seed.
 
@@ -192,6 +212,7 @@ class TrainingSettings(Settings):
         network: what to learn.
         normalisation: of observations and rewards.
         evaluation: while training, on environments of its own.
+        imitation: how the policy begins as the copy of a baseline; None where it begins with nothing learned.
     """
 
     timesteps: Count
@@ -203,6 +224,7 @@ class TrainingSettings(Settings):
     network: NetworkSettings
     normalisation: NormalisationSettings
     evaluation: EvaluationSettings
+    imitation: ImitationSettings | None = None
 
     @model_validator(mode="after")
     def _batches_fit(self) -> Self:
@@ -214,4 +236,12 @@ class TrainingSettings(Settings):
                     f"{self.envs} x {self.algorithm.n_steps} = {collected} into equal parts of 2 or more; "
                     "change one of the three"
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _can_imitate(self) -> Self:
+        if self.imitation is not None and self.algorithm.name != "ppo":
+            raise ValueError(
+                f"imitation goes with ppo, and algorithm.name = {self.algorithm.name!r}; leave one of them out"
+            )
         return self

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.metadata
+import math
 import sys
 from dataclasses import dataclass
 from typing import Any
@@ -20,6 +21,7 @@ from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.algorithms import OF_CONTRIB, Model
 from dq_marine.agents.training.callbacks import Checkpoints, Evaluations, ProgressUpdates, Saver
 from dq_marine.agents.training.episode_log import EpisodeLog
+from dq_marine.agents.training.imitation import imitate
 from dq_marine.agents.training.learners import (
     environments_of,
     load_model,
@@ -146,7 +148,7 @@ def _train(folder: RunFolder, plan: RunPlan, console: Console, watch: bool) -> S
     settings = plan.settings
     torch.set_num_threads(settings.torch_threads)
     saver = Saver(folder)
-    model = _model(folder, plan)
+    model = _model(folder, plan, console)
     if watch:
         environments_of(model).watch(0)
     began_at, wall_before = model.num_timesteps, saver.wall_time
@@ -183,11 +185,19 @@ def _train(folder: RunFolder, plan: RunPlan, console: Console, watch: bool) -> S
     return summary
 
 
-def _model(folder: RunFolder, plan: RunPlan) -> Model:
-    """Return the model to go on with: of the latest checkpoint, or a new one."""
+def _model(folder: RunFolder, plan: RunPlan, console: Console) -> Model:
+    """Return the model to go on with: of the latest checkpoint, or a new one, which may begin as a copy."""
     checkpoint = folder.latest("checkpoints")
     if checkpoint is None:
-        return make_model(plan.settings, plan.seed, folder.tensorboard)
+        model = make_model(plan.settings, plan.seed, folder.tensorboard)
+        if plan.settings.imitation is not None:
+            with console.status(f"Imitating the {plan.settings.imitation.teacher}"):
+                error = imitate(model, plan.settings, plan.seed)
+            console.print(
+                f"Begins as a copy of the {plan.settings.imitation.teacher}: its actions differ by "
+                f"{math.sqrt(error):.3f} of the actuators' reach, root mean square"
+            )
+        return model
     done = read_progress(checkpoint).timesteps
     return load_model(plan.settings, checkpoint, (plan.seed + done) % (LARGEST_SEED + 1), folder.tensorboard)
 

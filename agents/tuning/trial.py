@@ -8,6 +8,7 @@ from pathlib import Path
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.algorithms import Model
 from dq_marine.agents.training.callbacks import Evaluations
+from dq_marine.agents.training.imitation import imitate
 from dq_marine.agents.training.learners import environments_of, make_evaluation_envs, make_model
 from dq_marine.agents.training.run_folder import Kind
 from dq_marine.agents.training.training import EVALUATION_SEED
@@ -55,6 +56,8 @@ def trial_return(
     """
     torch.set_num_threads(settings.torch_threads)
     model = make_model(settings, seed, logs)
+    if settings.imitation is not None:
+        imitate(model, settings, seed)
     evaluations = Evaluations(
         make_evaluation_envs(settings),
         _KeepsNothing(),

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import multiprocessing
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -114,10 +114,10 @@ def tune(
         coming = range(len(_ended(study)), trials)
         if min(processes, len(coming)) <= 1:
             for index in coming:
-                _try(folder, index)
+                _try(folder, index, _asked(study))
                 after(tried(study, plan))
         else:
-            _try_side_by_side(folder, coming, min(processes, len(coming)), lambda: after(tried(study, plan)))
+            _try_side_by_side(folder, coming, min(processes, len(coming)), study, after)
         return tried(study, plan)
 
 
@@ -174,22 +174,34 @@ def _ended(study: optuna.Study) -> list[FrozenTrial]:
     return [trial for trial in trials if trial.state.is_finished() and trial.number not in again]
 
 
-def _try(folder: StudyFolder, index: int) -> None:
+def _asked(study: optuna.Study) -> int:
+    """Return the number of another trial to be trained.
+
+    Only the process that hands trials out asks for them: two that ask at once may be given the same one that waits.
+    """
+    return study.ask().number
+
+
+def _try(folder: StudyFolder, index: int, number: int) -> None:
     """Train one trial to its end, or until it is given up."""
     plan = folder.read_plan()
     space, study = search_space(plan.base), _study(folder, plan, index)
+    trial = optuna.Trial(study, study.get_trials(deepcopy=False)[number]._trial_id)
 
-    def objective(trial: optuna.Trial) -> float:
+    def tell(timesteps: int, mean_return: float) -> None:
+        trial.report(mean_return, timesteps)
+        if trial.should_prune():
+            raise optuna.TrialPruned
+
+    try:
         settings = with_values(plan.base, chosen_values(space, trial))
-
-        def tell(timesteps: int, mean_return: float) -> None:
-            trial.report(mean_return, timesteps)
-            if trial.should_prune():
-                raise optuna.TrialPruned
-
-        return _trial_return(settings, plan.seed, folder, trial.number, tell)
-
-    study.optimize(objective, n_trials=1, catch=FAILURES)
+        found = _trial_return(settings, plan.seed, folder, number, tell)
+    except optuna.TrialPruned:
+        study.tell(trial, state=TrialState.PRUNED)
+    except FAILURES:
+        study.tell(trial, state=TrialState.FAIL)
+    else:
+        study.tell(trial, found)
 
 
 def _trial_return(
@@ -204,18 +216,28 @@ def _trial_return(
     return trial_return(settings, seed=seed, logs=folder.tensorboard / f"trial{number:04d}", tell=tell)
 
 
-def _try_side_by_side(folder: StudyFolder, coming: range, processes: int, after: Callable[[], None]) -> None:
+def _try_side_by_side(
+    folder: StudyFolder,
+    coming: range,
+    processes: int,
+    study: optuna.Study,
+    after: Callable[[list[Tried]], None],
+) -> None:
     """Train so many trials at a time, and say so whenever one has ended.
 
     One that has ended makes room for the next, so that none is begun that was not asked for.
     """
-    context = multiprocessing.get_context("spawn")
+    plan, context = folder.read_plan(), multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(processes, mp_context=context) as pool, one_thread_each():
         waiting = iter(coming)
-        working = {pool.submit(_try, folder, index) for index in islice(waiting, processes)}
+
+        def begin(count: int) -> set[Future[None]]:
+            return {pool.submit(_try, folder, index, _asked(study)) for index in islice(waiting, count)}
+
+        working = begin(processes)
         while working:
             done, working = wait(working, return_when=FIRST_COMPLETED)
             for one in done:
                 one.result()
-            working |= {pool.submit(_try, folder, index) for index in islice(waiting, len(done))}
-            after()
+            working |= begin(len(done))
+            after(tried(study, plan))

@@ -146,6 +146,7 @@ def requested_training(
     preset: str | None = None,
     timesteps: int | None = None,
     envs: int | None = None,
+    teacher: str | None = None,
 ) -> TrainingSettings:
     """Return a preset's settings with what was asked for in its place.
 
@@ -155,6 +156,7 @@ def requested_training(
         preset: a name or a file's path; None takes the algorithm's.
         timesteps: in all; None keeps the preset's, and so on for the others.
         envs: environments to learn from.
+        teacher: the baseline that the policy begins as a copy of; None keeps the preset's, if it has one.
 
     Raises:
         InvalidInputError: the preset or an option is wrong, or they contradict each other.
@@ -169,6 +171,8 @@ def requested_training(
     asked = {"timesteps": timesteps, "envs": envs}
     content = settings.model_dump()
     content.update({name: value for name, value in asked.items() if value is not None})
+    if teacher is not None:
+        content["imitation"] = (content["imitation"] or {}) | {"teacher": teacher}
     content["environment"] = options.applied(settings.environment).model_dump()
     return validate_settings(content, TrainingSettings, source=f"{source} with these options")
 

@@ -43,8 +43,8 @@ def leaderboard(
         typer.Option(
             "--perturb",
             metavar="NAME",
-            help="What goes otherwise than planned, as `dq-marine evaluate --help` lists it; may be repeated. Each is flown by "
-            "itself, beside what is planned.",
+            help="What goes otherwise than planned, as `dq-marine evaluate --help` lists it; may be repeated. Each is "
+            "flown by itself, beside what is planned.",
         ),
     ] = None,
     agent: Annotated[list[Baseline] | None, baselines_option("controller, unless --policy is given")] = None,
@@ -119,7 +119,14 @@ def leaderboard(
             bar.stop()
             console.print(f"Stopped; {len(kept.results)} results are kept in {kept.path}", soft_wrap=True)
             raise typer.Exit(130) from None
-    options = {"task": task, "vehicle": vehicle, "level": level, "perturb": perturb, "agent": agents, "policy": policy}
+    options = {
+        "task": task,
+        "vehicle": vehicle,
+        "level": level,
+        "perturb": perturb,
+        "agent": agents,
+        "policy": policy,
+    }
     flags = ["--scenarios"] if scenarios else []
     write_whole(out, markdown(results, _command(options, flags, plan), _circumstances()))
     console.print(f"Wrote {out} and {kept.path}", soft_wrap=True)

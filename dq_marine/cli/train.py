@@ -32,6 +32,7 @@ EXAMPLES = examples(
     "dq-marine train --run runs/ppo --resume",
     "dq-marine train --run runs/sac --algorithm sac --seed 1",
     "dq-marine train --run runs/memory --algorithm recurrent_ppo",
+    "dq-marine train --run runs/docking --task Docking --imitate controller",
     "dq-marine train --run runs/many --set randomise=default --set sensors=auv",
     "dq-marine train --run runs/calm --set current=0.1 --set reward.effort=0.05",
     "dq-marine train --print-preset --set actuation=thrusters > my_preset.toml",
@@ -56,6 +57,16 @@ def train(
         ),
     ] = None,
     envs: EnvsOption = None,
+    imitate: Annotated[
+        str | None,
+        typer.Option(
+            "--imitate",
+            metavar="BASELINE",
+            help="Begin as a copy of controller, lqr or mpc, and learn from there. With ppo; how, [imitation] in a "
+            "preset says.",
+            show_default="none, or the preset's",
+        ),
+    ] = None,
     seed: Annotated[
         int | None,
         typer.Option(
@@ -90,12 +101,18 @@ def train(
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
     if resume:
         _refuse_with_resume(
-            algorithm=algorithm, preset=preset, envs=envs, seed=seed, force=force, **options.given()
+            algorithm=algorithm,
+            preset=preset,
+            envs=envs,
+            seed=seed,
+            imitate=imitate,
+            force=force,
+            **options.given(),
         )
         settings = None
     else:
         settings = requested_training(
-            options, algorithm=algorithm, preset=preset, timesteps=timesteps, envs=envs
+            options, algorithm=algorithm, preset=preset, timesteps=timesteps, envs=envs, teacher=imitate
         )
     if run is None or only_print:
         print_preset(settings or RunFolder(run or "").read_plan().settings)

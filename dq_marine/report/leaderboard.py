@@ -37,7 +37,7 @@ ONLY_SHOWING = ("cli", "manoeuvres", "viewer", "report", "validation", "identifi
 
 
 class Entry(NamedTuple):
-    """Who flies what: id of the task, vehicle, level ("" for none), agent; names of scenario and perturbation, or ""."""
+    """Who flies what: the task's id, vehicle, level ("" for none), agent; names of scenario and perturbation, or ""."""
 
     task: str
     vehicle: str

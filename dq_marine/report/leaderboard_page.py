@@ -51,7 +51,7 @@ def markdown(results: Sequence[Result], command: str, circumstances: str) -> str
 
 
 def seeded_table(results: Sequence[Result]) -> list[str]:
-    """Return the lines of a table of a task's seeded episodes: a row for each vehicle, level, perturbation and agent."""
+    """Return the lines of a table of a task's seeded episodes: a row for each of who flew what."""
     names = _metrics(results)
     perturbed = any(one.entry.perturbation for one in results)
     who = ["vehicle", "level", *(["perturbed by"] if perturbed else []), "agent"]

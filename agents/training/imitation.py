@@ -1,0 +1,192 @@
+"""A policy that begins as the copy of a baseline, and a critic that knows what that earns, before they learn.
+
+Behaviour cloning (Pomerleau 1991, Neural Computation 3(1)): the policy's mean is fitted to what the teacher would do.
+The teacher's actions are disturbed while it flies, so that the pupil sees how one comes back from where the teacher by
+itself would never be (Laskey et al. 2017, DART, CoRL). A critic that knew nothing would lead the first updates away
+from what was copied, so it is fitted to the discounted returns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.agents.controllers.baselines import make_baseline
+from dq_marine.agents.environments import make_environment
+from dq_marine.agents.settings import ImitationSettings, TrainingSettings
+from dq_marine.agents.training.algorithms import Model
+from dq_marine.errors import InvalidInputError
+from dq_marine.util.extras import extra_needed
+
+with extra_needed("training", "agents"):
+    import torch
+    from stable_baselines3.common.policies import ActorCriticPolicy
+    from stable_baselines3.common.vec_env import VecNormalize
+
+TEACHING_SEED = 3_000_000
+"""Of the teacher's first episode: far from the seeds that training counts up from, and from those of evaluations."""
+
+HELD_BACK = 0.1
+"""Share of what was flown that is not learned from, but tells how well the rest was."""
+
+FORESIGHT = 3.0
+"""Of the discounted return of an episode that the time limit cuts off, that from so many times 1/(1 - gamma) before the
+end is whole but for exp(-3) of it: later ones teach the critic nothing."""
+
+Observations = NDArray[np.float32] | dict[str, NDArray[np.float32]]
+
+
+@dataclass(frozen=True)
+class Lessons:
+    """What a teacher flew: n control periods.
+
+    Attributes:
+        observations: at their beginnings, shape (n, observed), or that for each part of an observation with goals.
+        actions: what the teacher would have done, shape (n, axes).
+        returns: discounted, from each on, shape (n,); NaN where too little of it was flown.
+        running: what `VecNormalize` sums up of rewards, by which it divides them, shape (n,).
+    """
+
+    observations: Observations
+    actions: NDArray[np.float32]
+    returns: NDArray[np.float64]
+    running: NDArray[np.float64]
+
+
+def imitate(model: Model, settings: TrainingSettings, seed: int) -> float:
+    """Let a model that has learned nothing begin as the copy of a baseline.
+
+    Args:
+        model: of PPO, in its normalised environments, whose statistics become those of what was flown.
+        settings: of the training, with `imitation`.
+        seed: of the training: what is disturbed and in which order it is learned follow from it.
+
+    Returns:
+        The mean square difference of the actions, over episodes and axes, of what it did not learn from.
+
+    Raises:
+        InvalidInputError: the teacher cannot fly in this environment, or the algorithm cannot imitate.
+    """
+    policy, envs, imitation = model.policy, model.get_vec_normalize_env(), settings.imitation
+    if not isinstance(policy, ActorCriticPolicy) or envs is None or imitation is None:
+        raise InvalidInputError(f"{settings.algorithm.name} cannot begin as a copy; train with ppo")
+    lessons = taught(settings, imitation, np.random.default_rng([seed, TEACHING_SEED]))
+    _take_statistics(envs, lessons)
+    observations, _ = policy.obs_to_tensor(envs.normalize_obs(lessons.observations))
+    actions = torch.as_tensor(lessons.actions)
+    scale = np.sqrt(envs.ret_rms.var + envs.epsilon) if envs.norm_reward else 1.0
+    returns = torch.as_tensor(np.asarray(lessons.returns / scale, dtype=np.float32))
+    random = np.random.default_rng([seed, TEACHING_SEED + 1])
+    held_back, learned = np.split(random.permutation(len(actions)), [max(1, round(HELD_BACK * len(actions)))])
+    optimiser = torch.optim.Adam(policy.parameters(), lr=imitation.learning_rate)
+    policy.set_training_mode(True)
+    for batch in _batches(learned, imitation, random):
+        mean, values = _foretold(policy, _rows_of(observations, batch))
+        known = torch.isfinite(returns[batch])
+        loss = torch.nn.functional.mse_loss(mean, actions[batch])
+        if known.any():
+            loss = loss + torch.nn.functional.mse_loss(values[known], returns[batch][known])
+        optimiser.zero_grad()
+        loss.backward()  # type: ignore[no-untyped-call]
+        optimiser.step()
+    policy.set_training_mode(False)
+    with torch.no_grad():
+        mean, _ = _foretold(policy, _rows_of(observations, held_back))
+        return float(torch.nn.functional.mse_loss(mean, actions[held_back]))
+
+
+def taught(settings: TrainingSettings, imitation: ImitationSettings, random: np.random.Generator) -> Lessons:
+    """Let the teacher fly, disturbed, and return what it would have done.
+
+    Raises:
+        InvalidInputError: the teacher cannot fly in this environment.
+    """
+    env = make_environment(settings.environment)
+    teacher = make_baseline(imitation.teacher, env, TEACHING_SEED)
+    gamma = settings.algorithm.gamma
+    observations: list[Any] = []
+    actions: list[Any] = []
+    returns: list[NDArray[np.float64]] = []
+    running: list[NDArray[np.float64]] = []
+    for episode in range(imitation.episodes):
+        observation, _ = env.reset(seed=TEACHING_SEED + episode)
+        teacher.reset(env)
+        rewards, terminated, truncated = [], False, False
+        while not (terminated or truncated):
+            action = np.clip(teacher.act(observation), -1.0, 1.0)
+            observations.append(observation)
+            actions.append(action)
+            disturbed = np.clip(action + imitation.noise * random.standard_normal(action.shape), -1.0, 1.0)
+            observation, reward, terminated, truncated, _ = env.step(disturbed.astype(np.float32))
+            rewards.append(float(reward))
+        returns.append(_returns(rewards, gamma, whole=terminated))
+        running.append(_discounted(rewards, gamma))
+    env.close()
+    return Lessons(
+        _stacked(observations),
+        np.array(actions, dtype=np.float32),
+        np.concatenate(returns),
+        np.concatenate(running),
+    )
+
+
+def _discounted(rewards: list[float], gamma: float) -> NDArray[np.float64]:
+    """Return the running sum of rewards, of which a share gamma is kept from one to the next."""
+    total, sums = 0.0, []
+    for reward in rewards:
+        total = gamma * total + reward
+        sums.append(total)
+    return np.array(sums)
+
+
+def _returns(rewards: list[float], gamma: float, *, whole: bool) -> NDArray[np.float64]:
+    """Return the discounted returns from each period on; NaN near the end of an episode that was cut off."""
+    returns = _discounted(rewards[::-1], gamma)[::-1].copy()
+    if not whole:
+        unknown = len(rewards) if gamma == 1.0 else round(FORESIGHT / (1.0 - gamma))
+        returns[max(0, len(rewards) - unknown) :] = np.nan
+    return returns
+
+
+def _stacked(observations: list[Any]) -> Observations:
+    if isinstance(observations[0], Mapping):
+        return {name: np.array([one[name] for one in observations]) for name in observations[0]}
+    return np.array(observations)
+
+
+def _take_statistics(envs: VecNormalize, lessons: Lessons) -> None:
+    """Let the environments normalise by what was flown until they know better."""
+    if envs.norm_obs:
+        parts = lessons.observations if isinstance(lessons.observations, dict) else {"": lessons.observations}
+        kept = envs.obs_rms if isinstance(envs.obs_rms, dict) else {"": envs.obs_rms}
+        for name, values in parts.items():
+            kept[name].update(values)
+    if envs.norm_reward:
+        envs.ret_rms.update(lessons.running)
+
+
+def _batches(
+    rows: NDArray[np.int64], imitation: ImitationSettings, random: np.random.Generator
+) -> Iterator[NDArray[np.int64]]:
+    """Yield the rows in batches, in another order in each epoch."""
+    for _ in range(imitation.epochs):
+        order = random.permutation(rows)
+        for start in range(0, len(order), imitation.batch_size):
+            yield order[start : start + imitation.batch_size]
+
+
+def _rows_of(observations: Any, rows: NDArray[np.int64]) -> Any:
+    if isinstance(observations, dict):
+        return {name: values[rows] for name, values in observations.items()}
+    return observations[rows]
+
+
+def _foretold(policy: ActorCriticPolicy, observations: Any) -> tuple[torch.Tensor, torch.Tensor]:
+    """Return the mean of the actions, shape (n, axes), and the critic's values, shape (n,)."""
+    features = policy.extract_features(observations)
+    latent_policy, latent_value = policy.mlp_extractor(features)
+    return policy.action_net(latent_policy), policy.value_net(latent_value).flatten()

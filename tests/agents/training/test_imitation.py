@@ -1,0 +1,96 @@
+"""A policy that begins as the copy of a baseline: it does what that does, and its critic knows what that earns."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+from rich.console import Console
+from support.trainings import tiny
+
+from dq_marine.agents.settings import ImitationSettings, NetworkSettings, TrainingSettings
+from dq_marine.agents.training import imitation
+from dq_marine.agents.training.imitation import imitate, taught
+from dq_marine.agents.training.learners import environments_of, make_model
+from dq_marine.agents.training.run_folder import RunFolder
+from dq_marine.agents.training.training import begin_training
+from dq_marine.cli.agent_options import EnvironmentOptions, requested_training
+from dq_marine.errors import InvalidInputError
+
+BRIEF = ImitationSettings(episodes=40, epochs=60, batch_size=64, learning_rate=3e-3)
+
+
+def learning(tmp_path: Path, own: ImitationSettings = BRIEF) -> TrainingSettings:
+    wide = NetworkSettings(layers=(32,), activation="tanh")
+    return tiny(tmp_path, "ppo", 64).model_copy(update={"imitation": own, "network": wide})
+
+
+def parameters_of(model) -> np.ndarray:
+    return torch.cat([one.detach().flatten() for one in model.policy.parameters()]).numpy()
+
+
+def test_the_copy_does_what_the_teacher_does_and_values_what_that_earns(tmp_path: Path) -> None:
+    settings = learning(tmp_path)
+    model = make_model(settings, 3, tmp_path)
+    error = imitate(model, settings, 3)
+    lessons = taught(settings, BRIEF, np.random.default_rng(8))
+    assert error < 0.3 * float(np.mean(np.square(lessons.actions)))
+    envs = model.get_vec_normalize_env()
+    observations, _ = model.policy.obs_to_tensor(envs.normalize_obs(lessons.observations))
+    with torch.no_grad():
+        actions = model.policy.get_distribution(observations).distribution.mean.numpy()
+        values = model.policy.predict_values(observations).numpy().ravel()
+    assert np.mean(np.square(actions - lessons.actions)) < 0.3 * np.mean(np.square(lessons.actions))
+    assert values.std() > 0.0
+    environments_of(model).close()
+
+
+@pytest.mark.sweep
+def test_it_follows_from_the_seed(tmp_path: Path) -> None:
+    settings = learning(tmp_path, BRIEF.model_copy(update={"episodes": 1, "epochs": 2}))
+    made = {}
+    for name, seed in (("one", 3), ("again", 3), ("other", 4)):
+        model = make_model(settings, seed, tmp_path)
+        imitate(model, settings, seed)
+        made[name] = parameters_of(model)
+        environments_of(model).close()
+    assert np.array_equal(made["one"], made["again"])
+    assert not np.array_equal(made["one"], made["other"])
+
+
+@pytest.mark.parametrize("whole", [True, False])
+def test_returns_are_discounted_sums_of_what_follows(whole: bool) -> None:
+    rewards, gamma = np.random.default_rng(0).normal(size=40).tolist(), 0.8
+    returns = imitation._returns(rewards, gamma, whole=whole)
+    expected = [sum(gamma**k * reward for k, reward in enumerate(rewards[i:])) for i in range(40)]
+    known = 40 if whole else 25  # 3/(1 - 0.8) periods before the end are not known
+    assert returns[:known] == pytest.approx(expected[:known], abs=1e-12)
+    assert np.isnan(returns[known:]).all()
+
+
+@pytest.mark.sweep
+def test_a_run_says_how_like_the_teacher_it_begins(tmp_path: Path) -> None:
+    console = Console(file=io.StringIO(), width=200)
+    settings = learning(tmp_path, BRIEF.model_copy(update={"episodes": 1, "epochs": 1}))
+    begin_training(RunFolder(tmp_path / "run"), settings, seed=1, console=console)
+    assert "Begins as a copy of the controller: its actions differ by 0." in console.file.getvalue()  # type: ignore[attr-defined]
+    assert RunFolder(tmp_path / "run").read_plan().settings == settings
+
+
+def test_what_cannot_imitate_or_teach_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InvalidInputError, match=r"imitation goes with ppo.*leave one of them out"):
+        requested_training(EnvironmentOptions(), algorithm="sac", teacher="controller")
+    with pytest.raises(InvalidInputError, match=r"imitation\.teacher"):
+        requested_training(EnvironmentOptions(), teacher="zero")
+    asked = requested_training(EnvironmentOptions(), teacher="controller").imitation
+    assert asked == ImitationSettings()
+    settings = learning(tmp_path, BRIEF.model_copy(update={"teacher": "lqr"}))
+    model = make_model(settings, 0, tmp_path)
+    before = parameters_of(model)
+    with pytest.raises(InvalidInputError):
+        imitate(model, settings, 0)
+    assert np.array_equal(parameters_of(model), before)
+    environments_of(model).close()
