@@ -103,9 +103,7 @@ def measure(plan: Plan) -> dict[str, Any]:
             rows.append({"case": name, "way": way.label} | errors(body, scene, actions, states, way.substeps))
             timed[name, way.label, 1] = repeated(body, scene, actions[0], states[0])
             batch = scene.batch(lanes, threads=1)
-            timed[name, way.label, lanes] = repeated(
-                batch, scene, actions[:3], np.tile(states[0], (lanes, 1))
-            )
+            timed[name, way.label, lanes] = repeated(batch, scene, actions[0], np.tile(states[0], (lanes, 1)))
     plan.tell("all in turn")
     timings = plan.compare(timed)
     for row in rows:
