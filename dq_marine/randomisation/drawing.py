@@ -146,6 +146,20 @@ def varied_damping(draw: DampingDraw, vehicle: Vehicle, rng: np.random.Generator
     return {"damping": vehicle.damping.model_dump() | changed, "cross_flow": cross_flow}
 
 
+def check_lost(draw: ActuatorsDraw, vehicle: Vehicle) -> None:
+    """Check that a vehicle has a propeller left.
+
+    Raises:
+        InvalidInputError: it loses all that it has.
+    """
+    propellers = len(vehicle.thrusters) + len(vehicle.azimuths)
+    if draw.lost and draw.lost >= propellers:
+        raise InvalidInputError(
+            f"actuators.lost = {draw.lost}, and {vehicle.name} has {propellers} to lose; give a vehicle with more "
+            "propellers, or lose fewer"
+        )
+
+
 def varied_actuators(draw: ActuatorsDraw, vehicle: Vehicle, rng: np.random.Generator) -> Content:
     """Return the tables of stronger or weaker actuators; an axis that is not actuated stays so."""
     limits = vehicle.limits.model_dump()
@@ -160,28 +174,14 @@ def varied_actuators(draw: ActuatorsDraw, vehicle: Vehicle, rng: np.random.Gener
         for fin in tables["fins"]:
             fin["coefficients"] = (np.array(fin["coefficients"]) * drawn(draw.fins, rng)).tolist()
     if draw.lost:
-        for index in _drawn_to_fail(draw.lost, len(propellers), rng):
-            _scale(propellers[index], THRUST, NOTHING)
+        for index in rng.choice(len(propellers), draw.lost, replace=False):
+            _scale(propellers[index], (*THRUST, "inflow"), NOTHING)
     return tables | {"limits": limits}
-
-
-def _drawn_to_fail(lost: int, propellers: int, rng: np.random.Generator) -> list[int]:
-    """Return which propellers fail.
-
-    Raises:
-        InvalidInputError: none would be left.
-    """
-    if lost >= propellers:
-        raise InvalidInputError(
-            f"actuators.lost = {lost}, and the vehicle has {propellers} propellers; "
-            "give a vehicle of more, or lose less"
-        )
-    return rng.choice(propellers, lost, replace=False).tolist()  # type: ignore[no-any-return]
 
 
 def _scale(table: Content, names: tuple[str, ...], factor: float) -> None:
     for name in names:
-        if table[name] is not None:
+        if table.get(name) is not None:
             table[name] *= factor
 
 

@@ -12,6 +12,7 @@ from dq_marine.checks import whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.fields import Table
 from dq_marine.randomisation.drawing import (
+    check_lost,
     varied_actuators,
     varied_added_mass,
     varied_buoyancy,
@@ -87,8 +88,10 @@ class Randomisation(Table):
             rng: a generator, which goes on, or a seed.
 
         Raises:
-            InvalidInputError: none of a hundred draws passes; the message says why the last one did not.
+            InvalidInputError: it would lose all its propellers; or none of a hundred draws passes, and the message says
+                why the last one did not.
         """
+        check_lost(self.actuators, vehicle)
         random = np.random.default_rng(rng)
         for _ in range(ATTEMPTS):
             try:

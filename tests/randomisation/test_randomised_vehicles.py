@@ -276,9 +276,6 @@ def test_propellers_and_fins_are_weaker_each_for_itself():
     assert np.allclose(fins, 0.8 * VEHICLES["remus100"].actuators.fin_matrix)
 
 
-# Reproducibility
-
-
 @pytest.mark.parametrize("lost", [1, 3])
 def test_so_many_propellers_are_lost_each_as_often_as_another(lost):
     vehicle = VEHICLES["bluerov2_heavy"]
@@ -292,9 +289,22 @@ def test_so_many_propellers_are_lost_each_as_often_as_another(lost):
     assert (np.abs(dead.mean(axis=0) - share) < 5.0 * np.sqrt(share * (1.0 - share) / 400)).all()
 
 
+def test_a_lost_propeller_gives_nothing_at_speed_either():
+    content = VEHICLES["remus100"].model_dump()
+    (own,) = content["thrusters"]
+    content["thrusters"] = [own | {"name": name} for name in ("port", "starboard")]
+    twin = Vehicle.model_validate(content)
+    dead, alive = sorted(
+        from_tables(actuators={"lost": 1}).draw(twin, 0).thrusters, key=lambda one: one.inflow
+    )
+    assert own["inflow"] > 0.0
+    assert alive.model_dump(exclude={"name"}) == twin.thrusters[0].model_dump(exclude={"name"})
+    assert dead.inflow < 1e-3 * own["inflow"]
+
+
 def test_the_only_propeller_cannot_be_lost():
     with pytest.raises(
-        InvalidInputError, match=r"lost = 1, and the vehicle has 1 propellers; give a vehicle"
+        InvalidInputError, match=r"^actuators\.lost = 1, and REMUS 100 has 1 to lose; give a vehicle"
     ):
         from_tables(actuators={"lost": 1}).draw(VEHICLES["remus100"], 0)
 
@@ -307,6 +317,9 @@ def test_a_payload_makes_a_submerged_vehicle_heavier_in_the_water():
         assert before <= share + 1e-12
         assert share <= before + 0.03 + 1e-12
         assert own.rigid_body.mass <= drawn.rigid_body.mass <= 1.1 * own.rigid_body.mass + 1e-9
+
+
+# Reproducibility
 
 
 def test_a_seed_gives_the_same_vehicles():
