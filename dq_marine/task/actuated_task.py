@@ -9,7 +9,7 @@ from typing import Any
 from dq_marine.integrator.actuation import Actuation
 from dq_marine.integrator.body import Motion
 from dq_marine.task.action import ActuatedMemory
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, TaskOutcome
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, outcome_within
 from dq_marine.task.protocol import Start
 
 
@@ -17,7 +17,7 @@ from dq_marine.task.protocol import Start
 def with_actuators(task: EpisodeTask, actuation: Actuation) -> EpisodeTask:
     """Return the task for a composition with this actuation; episodes begin with its channels at rest."""
     first_memory, next_memory = task.initial_memory, task.update_memory
-    observe_task, task_outcome = task.observe, task.outcome
+    observe_task = task.observe
     first_reading, later_reading = task.sensing.first, task.sensing.later
     rest = actuation.rest
 
@@ -31,11 +31,6 @@ def with_actuators(task: EpisodeTask, actuation: Actuation) -> EpisodeTask:
 
     def observe(parameters: Any, memory: ActuatedMemory, motion: Motion) -> Any:
         return observe_task(parameters, memory.task, motion)
-
-    def outcome(
-        parameters: EpisodeParameters, memory: ActuatedMemory, motion: Motion, action_squares: float
-    ) -> TaskOutcome:
-        return task_outcome(parameters, memory.task, motion, action_squares)
 
     def read_first(
         parameters: EpisodeParameters, memory: ActuatedMemory, motion: Motion, uniforms: Any
@@ -52,6 +47,6 @@ def with_actuators(task: EpisodeTask, actuation: Actuation) -> EpisodeTask:
         initial_memory=initial_memory,
         update_memory=update_memory,
         observe=observe,
-        outcome=outcome,
+        outcome=outcome_within(task),
         sensing=task.sensing._replace(first=read_first, later=read_later),
     )

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from dq_marine.integrator.body import BodyState, Motion
 from dq_marine.integrator.step import StepOutcome, StepParameters
 from dq_marine.task.action import Act
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, TaskOutcome
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, outcome_within
 from dq_marine.task.protocol import Start
 
 
@@ -121,7 +121,7 @@ def with_delays(task: EpisodeTask, delays: Delays, action_size: int, blank_obser
     still = actions.filled((0.0,) * action_size)
     nothing_shown = fill(blank_observation)
     first_memory, next_memory, observe_task = task.initial_memory, task.update_memory, task.observe
-    task_outcome, delay_within = task.outcome, task.delay_act
+    delay_within = task.delay_act
     first_reading, later_reading = task.sensing.first, task.sensing.later
 
     def initial_memory(parameters: Any, begun: Start, uniforms: tuple[float, ...]) -> Delayed:
@@ -147,11 +147,6 @@ def with_delays(task: EpisodeTask, delays: Delays, action_size: int, blank_obser
     def observe(parameters: Any, memory: Delayed, motion: Motion) -> Any:
         return oldest(memory.observations, observe_task(parameters, memory.task, motion))
 
-    def outcome(
-        parameters: EpisodeParameters, memory: Delayed, motion: Motion, action_squares: float
-    ) -> TaskOutcome:
-        return task_outcome(parameters, memory.task, motion, action_squares)
-
     def delay_act(act: Act) -> Act:
         act_at_once = delay_within(act)
 
@@ -175,7 +170,7 @@ def with_delays(task: EpisodeTask, delays: Delays, action_size: int, blank_obser
         initial_memory=initial_memory,
         update_memory=update_memory,
         observe=observe,
-        outcome=outcome,
+        outcome=outcome_within(task),
         sensing=task.sensing._replace(first=first, later=later),
         delay_act=delay_act,
         begin_showing=begin_showing,

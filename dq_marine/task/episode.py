@@ -132,6 +132,18 @@ class EpisodeTask:
     begin_showing: Callable[[Any, Any, Motion], Any] = all_is_shown
 
 
+def outcome_within(task: EpisodeTask) -> Callable[[EpisodeParameters, Any, Motion, float], TaskOutcome]:
+    """Return the task's outcome for a memory that wraps the task's own, which it has as `task`."""
+    task_outcome = task.outcome
+
+    def outcome(
+        parameters: EpisodeParameters, memory: Any, motion: Motion, action_squares: float
+    ) -> TaskOutcome:
+        return task_outcome(parameters, memory.task, motion, action_squares)
+
+    return outcome
+
+
 def no_sum(total: float, terms: tuple[float, ...]) -> float:
     """Return the total."""
     return total

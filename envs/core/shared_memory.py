@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from dq_marine.envs.core.marine_env import MarineEnv
 
 
+WRAPPINGS = (Sensed, ActuatedMemory, Delayed)
+"""Memories that have a task's own as `task`."""
+
+
 def parameters_of(env: MarineEnv) -> EpisodeParameters:
     """Return the numbers of the episode in progress."""
     return unpack(env.episode_parameters({}), env.episode.episode_parameters)  # type: ignore[no-any-return]
@@ -23,7 +27,7 @@ def parameters_of(env: MarineEnv) -> EpisodeParameters:
 def task_memory(env: MarineEnv) -> Any:
     """Return what the task of an environment remembers now."""
     memory = unpack(env.blank_memory, env.episode.memory)
-    while isinstance(memory, Sensed | ActuatedMemory | Delayed):
+    while isinstance(memory, WRAPPINGS):
         memory = memory.task
     return memory
 
@@ -44,6 +48,6 @@ def tell_again(env: MarineEnv) -> None:
 
 def _within(whole: Any, memory: Any) -> Any:
     """Return the memory of an episode with another one of the task."""
-    if isinstance(whole, Sensed | ActuatedMemory | Delayed):
+    if isinstance(whole, WRAPPINGS):
         return whole._replace(task=_within(whole.task, memory))
     return memory

@@ -76,7 +76,6 @@ def prepared_pool(settings: Settings) -> VehiclePool:
     Raises:
         InvalidInputError: a vehicle cannot be integrated with the step, or the vehicles differ in what is computed.
     """
-    _check_lost(settings)
     vehicles = drawn_vehicles(settings)
     scenes = [
         _scene(settings.with_vehicle(vehicle), number, len(vehicles))
@@ -99,32 +98,23 @@ def drawn_vehicles(settings: Settings) -> tuple[Vehicle, ...]:
     """Return the vehicles that episodes fly.
 
     Raises:
-        InvalidInputError: see `Randomisation.pool`.
+        InvalidInputError: see `Randomisation.pool`; or propellers are to be lost of a body that none drive.
     """
     if settings.randomise is None:
         return (settings.flown,)
-    return Randomisation.load(settings.randomise).pool(
-        settings.flown, settings.vehicle_pool, settings.vehicle_seed
-    )
+    randomisation = Randomisation.load(settings.randomise)
+    lost = randomisation.actuators.lost
+    if lost and settings.actuation == "wrench":
+        raise InvalidInputError(
+            f"randomise loses {lost} of the propellers, and actuation = 'wrench' has none; give actuation = 'thrusters'"
+        )
+    return randomisation.pool(settings.flown, settings.vehicle_pool, settings.vehicle_seed)
 
 
 def wrench_limits_of(vehicle: Vehicle) -> tuple[float, float, float, float, float, float]:
     """Return the wrench at full action [N, N m], Fossen's order."""
     x, y, z, k, m, n = vehicle.wrench_limits.tolist()
     return (x, y, z, k, m, n)
-
-
-def _check_lost(settings: Settings) -> None:
-    """Refuse to lose propellers of a body that none drive.
-
-    Raises:
-        InvalidInputError: that is asked for.
-    """
-    lost = settings.randomise is not None and Randomisation.load(settings.randomise).actuators.lost
-    if lost and settings.actuation == "wrench":
-        raise InvalidInputError(
-            f"randomise loses {lost} of the propellers, and actuation = 'wrench' has none; give actuation = 'thrusters'"
-        )
 
 
 def _scene(settings: Settings, number: int, count: int) -> Scene:

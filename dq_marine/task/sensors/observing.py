@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from dq_marine.algebra.nesting import nested
 from dq_marine.integrator.body import Motion
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Sensing, TaskOutcome
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Sensing, outcome_within
 from dq_marine.task.protocol import Start
 from dq_marine.task.sensors.errors import (
     Instrument,
@@ -122,7 +122,7 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
     read_first, read_later = join_first(instruments), join_later(instruments)
     believe, show = join_believe(instruments), join_show(instruments)
     first_memory, next_memory = task.initial_memory, task.update_memory
-    observe_task, task_outcome = task.observe, task.outcome
+    observe_task = task.observe
     blank, own_first, own_later = blank_readings(instruments), task.sensing.first, task.sensing.later
     begin, proceed = task.sensing.first_draws, task.sensing.later_draws
 
@@ -146,11 +146,6 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
         told = believe(memory.readings, motion)
         return (observe_task(parameters, memory.task, told), show(memory.readings))
 
-    def outcome(
-        parameters: EpisodeParameters, memory: Sensed, motion: Motion, action_squares: float
-    ) -> TaskOutcome:
-        return task_outcome(parameters, memory.task, motion, action_squares)
-
     sensing = Sensing(
         first,
         begin + sum(map(first_draws, instruments)),
@@ -162,6 +157,6 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
         initial_memory=initial_memory,
         update_memory=update_memory,
         observe=observe,
-        outcome=outcome,
+        outcome=outcome_within(task),
         sensing=sensing,
     )

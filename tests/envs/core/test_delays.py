@@ -1,7 +1,6 @@
 """Actions that arrive late and observations that are old: the same flight as without, shifted by the delays."""
 
 import copy
-import itertools
 import pickle
 
 import gymnasium as gym
@@ -84,11 +83,11 @@ def test_nothing_that_was_under_way_is_left_in_the_next_episode():
     env = StationKeepingEnv(**LATE)
     actions = actions_for(env)
     first, again = flight(env, actions), flight(env, actions)
-    for a, b in zip(itertools.chain(first[0]), itertools.chain(again[0]), strict=True):
-        assert np.array_equal(a, b)
+    for one, other in zip(first[0], again[0], strict=True):
+        assert np.array_equal(one, other)
 
 
-def test_the_checker_and_another_environment_object_agree():
+def test_gymnasiums_checker_passes():
     check_env(StationKeepingEnv(**LATE), skip_render_check=True)
 
 
