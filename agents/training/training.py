@@ -19,6 +19,7 @@ from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.evaluation import Score, evaluate
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.algorithms import OF_CONTRIB, Model
+from dq_marine.agents.training.beginning import check_can_begin
 from dq_marine.agents.training.callbacks import Checkpoints, Evaluations, ProgressUpdates, Saver
 from dq_marine.agents.training.episode_log import EpisodeLog
 from dq_marine.agents.training.imitation import imitate
@@ -90,10 +91,10 @@ def begin_training(
         watch: open a page that follows one of the environments.
 
     Raises:
-        InvalidInputError: the folder is taken, the seed is too large, or the environment's keywords are wrong.
+        InvalidInputError: the folder is taken, the seed is too large, or see `check_can_begin`.
     """
     seed = whole_number("seed", seed, least=0, most=LARGEST_SEED)
-    make_environment(settings.environment).close()  # so that a mistake leaves an earlier run untouched
+    check_can_begin(settings)  # so that a mistake leaves an earlier run untouched
     plan = RunPlan(settings, seed, _versions(settings))
     with folder.begun(plan, force=force):
         return _train(folder, plan, console, watch)

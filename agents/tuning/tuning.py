@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from dq_marine.agents.environments import make_environment
 from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.training.beginning import check_can_begin
 from dq_marine.agents.training.run_folder import LARGEST_SEED
 from dq_marine.agents.tuning.search_space import (
     Space,
@@ -74,10 +74,10 @@ def plan_of(settings: TrainingSettings, *, seed: int) -> StudyPlan:
     """Return a search that begins from a training, evaluated often enough for trials to be given up.
 
     Raises:
-        InvalidInputError: the seed is too large, or the environment's keywords are wrong.
+        InvalidInputError: the seed is too large, or see `check_can_begin`.
     """
     seed = whole_number("seed", seed, least=0, most=LARGEST_SEED)
-    make_environment(settings.environment).close()
+    check_can_begin(settings)
     every = max(1, min(settings.evaluation.every, settings.timesteps // EVALUATIONS))
     evaluation = settings.evaluation.model_copy(update={"every": every})
     return StudyPlan(settings.model_copy(update={"evaluation": evaluation}), seed)

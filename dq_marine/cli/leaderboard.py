@@ -43,7 +43,7 @@ def leaderboard(
         typer.Option(
             "--perturb",
             metavar="NAME",
-            help="What goes otherwise than planned, as `dq-marine evaluate --help` lists it; may be repeated. Each is "
+            help="What does not go as planned, as `dq-marine evaluate --help` lists it; may be repeated. Each is "
             "flown by itself, beside what is planned.",
         ),
     ] = None,

@@ -90,7 +90,7 @@ PerturbOption = Annotated[
     typer.Option(
         "--perturb",
         metavar="NAME",
-        help="What goes otherwise than planned: late_actions, old_observations, lost_thruster, payload, "
+        help="What does not go as planned: late_actions, old_observations, lost_thruster, payload, "
         "unknown_vehicle, strong_current or faulty_sensors; may be repeated. It wins over what a preset or a run says.",
     ),
 ]

@@ -84,7 +84,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
             extra_rewards: terms that are added to it.
             settings: what is simulated, as an object; or else
             level: of difficulty, one of the task's `levels`: stands for keywords, over which those that are given win.
-            perturb: what goes otherwise than the task says, by name, one or several of `dq_marine.envs.PERTURBATIONS`:
+            perturb: what does not go as planned, by name, one or several of `dq_marine.envs.PERTURBATIONS`:
                 stands for keywords, over which those that are given win, and which win over the level's.
             keywords: those of `Settings`, with the task's own defaults, and the task's own keywords.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).

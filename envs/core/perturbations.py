@@ -1,4 +1,4 @@
-"""What goes otherwise at sea than a task says, by name: keywords of environments, for training and for evaluation."""
+"""What does not go as planned at sea, by name: keywords of environments, for training and for evaluation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from dq_marine.errors import InvalidInputError
 
 @dataclass(frozen=True)
 class Perturbation:
-    """What goes otherwise.
+    """Something that does not go as planned.
 
     Attributes:
         about: in a few words.
@@ -30,23 +30,24 @@ PERTURBATIONS: Mapping[str, Perturbation] = MappingProxyType(
     {
         "late_actions": Perturbation("actions arrive two control periods late", {"action_delay": 2}),
         "old_observations": Perturbation(
-            "what is shown is two control periods old", {"observation_delay": 2}
+            "what the agent is shown is two control periods old", {"observation_delay": 2}
         ),
         "lost_thruster": Perturbation(
-            "one propeller, another in each episode, gives nothing",
+            "one propeller, a different one in each episode, gives no thrust",
             {"actuation": "thrusters", "randomise": "lost_thruster"},
         ),
         "payload": Perturbation(
             "up to 10 % heavier, out of trim and not ballasted", {"randomise": "payload"}
         ),
         "unknown_vehicle": Perturbation(
-            "mass, added mass, damping, trim and thrust are others in each episode", {"randomise": "default"}
+            "mass, added mass, damping, trim and thrust differ from episode to episode",
+            {"randomise": "default"},
         ),
         "strong_current": Perturbation(
             "a current of up to half of the cruising speed", {"current": current_for(0.5)}
         ),
         "faulty_sensors": Perturbation(
-            "half of the DVL's readings are lost, and the compass is off by some 3 degrees",
+            "half of the DVL's readings are lost, and the heading is some 3 degrees off",
             {"sensors": {"dvl": {"noise": 0.01, "dropout": 0.5}, "ahrs": {"noise": 0.01, "bias": 0.05}}},
         ),
     }

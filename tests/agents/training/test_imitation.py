@@ -17,6 +17,7 @@ from dq_marine.agents.training.imitation import imitate, taught
 from dq_marine.agents.training.learners import environments_of, make_model
 from dq_marine.agents.training.run_folder import RunFolder
 from dq_marine.agents.training.training import begin_training
+from dq_marine.agents.tuning.tuning import plan_of
 from dq_marine.cli.agent_options import EnvironmentOptions, requested_training
 from dq_marine.errors import InvalidInputError
 
@@ -94,3 +95,12 @@ def test_what_cannot_imitate_or_teach_is_refused(tmp_path: Path) -> None:
         imitate(model, settings, 0)
     assert np.array_equal(parameters_of(model), before)
     environments_of(model).close()
+
+
+def test_a_teacher_that_cannot_fly_is_refused_before_anything_is_written(tmp_path: Path) -> None:
+    settings = learning(tmp_path, BRIEF.model_copy(update={"teacher": "lqr"}))
+    with pytest.raises(InvalidInputError, match=r"the controller reads .*give it an environment"):
+        begin_training(RunFolder(tmp_path / "run"), settings, console=Console(quiet=True))
+    assert not (tmp_path / "run").exists()
+    with pytest.raises(InvalidInputError, match=r"the controller reads .*give it an environment"):
+        plan_of(settings, seed=0)

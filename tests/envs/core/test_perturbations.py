@@ -1,5 +1,6 @@
 """Perturbations by name: the keywords that they stand for, and who wins over whom."""
 
+from pathlib import Path
 from typing import get_args
 
 import gymnasium as gym
@@ -44,6 +45,12 @@ def test_what_is_given_wins_over_a_perturbation_and_that_over_a_level():
     assert both.water.speed == pytest.approx(0.5 * cruising_speed(both.flown))
     assert level.water.speed != both.water.speed
     assert settings_of(perturb=["payload", "lost_thruster"], randomise="payload").actuation == "thrusters"
+
+
+def test_the_page_says_of_each_what_happens():
+    page = (Path(__file__).parents[3] / "docs" / "howto" / "perturb.md").read_text(encoding="utf-8")
+    for name, one in PERTURBATIONS.items():
+        assert f"| `{name}` | {one.about} |" in page
 
 
 def test_the_option_names_them_all():
