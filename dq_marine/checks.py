@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import numbers
 import operator
 import os
@@ -209,8 +210,8 @@ def check_finite_rows(name: str, array: NDArray[Any]) -> None:
     """
     # The sum is finite unless a component is not, or numbers near the largest add up beyond it: look closer then.
     with np.errstate(over="ignore", invalid="ignore"):
-        total = array.sum()
-    if not np.isfinite(total):
+        total = float(np.add.reduce(array, axis=None))
+    if not math.isfinite(total):
         bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
         if bad.size:
             raise InvalidInputError(

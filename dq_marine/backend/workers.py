@@ -55,7 +55,7 @@ class Workers:
     def __init__(self, threads: int | None, blocks: int) -> None:
         self.threads = checked_threads(threads, blocks)
         edges = [blocks * part // self.threads for part in range(self.threads + 1)]
-        self._shares = list(pairwise(edges))
+        *self._others, self._own = pairwise(edges)
         self._pool: ThreadPoolExecutor | None = None
         self._process = os.getpid()
 
@@ -75,11 +75,10 @@ class Workers:
             ) from error
 
     def _run(self, function: Callable[..., Any], *arguments: Any) -> None:
-        *others, own = self._shares
-        submit = self._executor().submit if others else None
-        waiting = [submit(function, *share, *arguments) for share in others] if submit else ()
+        submit = self._executor().submit if self._others else None
+        waiting = [submit(function, *share, *arguments) for share in self._others] if submit else ()
         try:
-            function(*own, *arguments)
+            function(*self._own, *arguments)
         finally:
             for future in waiting:
                 future.result()

@@ -15,17 +15,13 @@ from dq_marine.envs.core.proportion import disturbed
 from dq_marine.envs.core.suitability import cruising_speed, paced, steers_only_under_way, unable_to_berth
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, ForVehicle, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
+from dq_marine.task import berths
 from dq_marine.task.berths import (
-    Berth,
-    Berthing,
-    Box,
-    Harbour,
-    Limits,
     berthing_kept,
-    contact_speed_of,
     drawn_berth,
     first_berthing,
     from_berth,
+    gained,
     room_left,
 )
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
@@ -42,7 +38,10 @@ GIVE, THICKNESS = 0.02, 0.25  # how far fenders can be pressed in; thickness of 
 NEAREST = (0.58, 0.4)  # starts: from these shares of distance and offing on
 START_TURN, START_DRAWS = math.radians(15.0), 6  # heading of starts, off the quay's [rad]
 PIERS = ForVehicle(lambda one: 0.0 if steers_only_under_way(one) else 1.0, "1, but 0 if nothing drives sway")
-LOST = 2.0  # episodes end beyond this distance from the berth [of the farthest start's]
+LOST, FAR = (
+    2.0,
+    0.5,
+)  # episodes end beyond this distance; nearness is 1/e at this one [of the farthest start's]
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ class Settings:
 
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
-    usual = contact_speed_of(vehicle.dimensions.length, cruising_speed(vehicle))
+    usual = berths.contact_speed_of(vehicle.dimensions.length, cruising_speed(vehicle))
     contact = usual if given.contact_speed is None else given.contact_speed
     return replace(
         given,
@@ -80,18 +79,19 @@ class Parameters(NamedTuple):
     offing: float
     speed: float
     depth: float
-    harbour: Harbour
-    box: Box
-    limits: Limits
+    harbour: berths.Harbour
+    box: berths.Box
+    limits: berths.Limits
     held: float
     period: float
 
 
 class Memory(NamedTuple):
-    """The berth, and what came of coming alongside."""
+    """The berth, and what came of coming alongside, now and a control period ago."""
 
-    berth: Berth
-    berthing: Berthing
+    berth: berths.Berth
+    berthing: berths.Berthing
+    before: berths.Berthing
 
 
 class Metrics(NamedTuple):
@@ -105,11 +105,11 @@ class Metrics(NamedTuple):
 
 
 class Rewards(NamedTuple):
-    """Terms of the reward, and their weights: nearness along and across, angle, berthed, struck, effort."""
+    """Terms of the reward, and their weights: gains of nearness, far off and close by, of heading; ends; effort."""
 
-    nearness: float = 0.4
-    precision: float = 0.3
-    heading: float = 0.2
+    nearness: float = 30.0
+    precision: float = 10.0
+    heading: float = 5.0
     berthed: float = 50.0
     struck: float = 20.0
     effort: float = 0.02
@@ -127,9 +127,9 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
         length * settings.offing,
         cruising,
         starting_depth(vehicle, 0.0),
-        Harbour(hull, clear, length * settings.pier, length * settings.basin, length * THICKNESS),
-        Box(along * length, across * length, PARALLEL, slow),
-        Limits(contact, GIVE * length),
+        berths.Harbour(hull, clear, length * settings.pier, length * settings.basin, length * THICKNESS),
+        berths.Box(along * length, across * length, PARALLEL, slow),
+        berths.Limits(contact, GIVE * length),
         HELD * context.control_period,
         context.control_period,
     )
@@ -147,13 +147,15 @@ def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
     """Return the berth, and that nothing has come of it yet."""
     berth = drawn_berth(uniforms, 0)
-    return Memory(berth, first_berthing(own.harbour, berth, Motion(*begun)))
+    begins = first_berthing(own.harbour, berth, Motion(*begun))
+    return Memory(berth, begins, begins)
 
 
 def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
     """Return what came of a control period."""
     berth, before = memory.berth, memory.berthing
-    return Memory(berth, berthing_kept(own.harbour, own.box, own.limits, berth, before, motion, own.period))
+    came = berthing_kept(own.harbour, own.box, own.limits, berth, before, motion, own.period)
+    return Memory(berth, came, before)
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
@@ -200,11 +202,12 @@ def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
 
 def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
-    near, turned = now.metrics.distance, now.metrics.heading_error / PARALLEL
+    came, before = now.memory.berthing, now.memory.before
+    nearer, closer, parallel = gained(own.harbour, own.box, FAR * own.distance, came, before)
     return Rewards(
-        nearness=weights.nearness * math.exp(-near / (0.5 * own.distance)),
-        precision=weights.precision * math.exp(-near / own.harbour.hull.half_length),
-        heading=weights.heading * math.exp(-turned * turned),
+        nearness=weights.nearness * nearer,
+        precision=weights.precision * closer,
+        heading=weights.heading * parallel,
         berthed=weights.berthed * select(succeeded(own, now), 1.0, 0.0),
         struck=-(weights.struck * now.memory.berthing.struck),
         effort=effort(weights.effort, now),

@@ -9,17 +9,13 @@ from typing import Any, NamedTuple
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.vector3 import bounded_vector, norm, subtract
 from dq_marine.checks import finite_number
+from dq_marine.envs.core import suitability
 from dq_marine.envs.core.places import starting_depth
-from dq_marine.envs.core.suitability import (
-    cruising_speed,
-    paced,
-    steers_only_under_way,
-    unable_to_dive_under_way,
-)
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along, spread
 from dq_marine.integrator.body import Motion
+from dq_marine.task import docks
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
-from dq_marine.task.docks import Contact, Dock, Funnel, Limits, across, approach, contact, heave_of, later
+from dq_marine.task.docks import Contact, Dock, across, approach, contact, gained, heave_of, later
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import dock_seen
 from dq_marine.task.starts import under_way
@@ -32,7 +28,7 @@ SLOW, UNDER_WAY = 0.5, 1.2
 SIDEWAYS = 0.5  # speed across in contact, as a share of that limit
 FARTHER = 3.0  # start vehicles that steer only under way, and from a narrower angle
 LEAST_DEPTH = 20.0  # of docks; ten lengths of long vehicles [m]
-LOST = 2.0  # episodes end beyond this distance from the dock [starting distances]
+LOST, FAR = 2.0, 0.5  # episodes end beyond this distance; nearness is 1/e at this one [starting distances]
 START_TURN, START_DRAWS = math.radians(25.0), 5  # largest turn of a start away from the dock
 
 
@@ -54,8 +50,10 @@ class Settings:
 
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
-    share = UNDER_WAY if steers_only_under_way(vehicle) else SLOW
-    contact = share * cruising_speed(vehicle) if given.contact_speed is None else given.contact_speed
+    share = UNDER_WAY if suitability.steers_only_under_way(vehicle) else SLOW
+    contact = (
+        share * suitability.cruising_speed(vehicle) if given.contact_speed is None else given.contact_speed
+    )
     return replace(
         given,
         distance=finite_number("distance", given.distance, least=3.0, most=1e3),
@@ -76,17 +74,19 @@ class Parameters(NamedTuple):
     angle: float
     speed: float
     to_bow: float
-    funnel: Funnel
+    funnel: docks.Funnel
     dock: Dock
-    limits: Limits
+    limits: docks.Limits
     period: float
 
 
 class Memory(NamedTuple):
-    """The dock, and what came of the bow's approach."""
+    """The dock, what came of the bow's approach, and how the bow is before it, now and a control period ago."""
 
     dock: Dock
     contact: Contact
+    bow: docks.Approach
+    before: docks.Approach
 
 
 class Metrics(NamedTuple):
@@ -99,11 +99,11 @@ class Metrics(NamedTuple):
 
 
 class Rewards(NamedTuple):
-    """Terms of the reward, and their weights: nearness, place in the cone, angle, docked, struck, effort."""
+    """Terms of the reward, and their weights: gains of nearness, of place in the cone, of angle; ends; effort."""
 
-    nearness: float = 0.4
-    cone: float = 0.3
-    angle: float = 0.2
+    nearness: float = 30.0
+    cone: float = 10.0
+    angle: float = 5.0
     docked: float = 50.0
     struck: float = 20.0
     effort: float = 0.02
@@ -111,23 +111,23 @@ class Rewards(NamedTuple):
 
 def starting_distance(settings: Any, vehicle: Any) -> float:
     """Return how far from the dock a vehicle starts [m]."""
-    farther = FARTHER if steers_only_under_way(vehicle) else 1.0
+    farther = FARTHER if suitability.steers_only_under_way(vehicle) else 1.0
     return float(farther * vehicle.dimensions.length * settings.distance)
 
 
 def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
     vehicle, length = context.vehicle, context.vehicle.dimensions.length
-    narrower = 1.0 / FARTHER if steers_only_under_way(vehicle) else 1.0
+    narrower = 1.0 / FARTHER if suitability.steers_only_under_way(vehicle) else 1.0
     throat, depth = max(LEAST_THROAT, THROAT * length), starting_depth(vehicle, LEAST_DEPTH)
     return Parameters(
         starting_distance(settings, vehicle),
         narrower * math.radians(settings.angle),
-        cruising_speed(vehicle) if steers_only_under_way(vehicle) else 0.0,
+        suitability.cruising_speed(vehicle) if suitability.steers_only_under_way(vehicle) else 0.0,
         0.5 * length,
-        Funnel(throat, CONE * length, math.tan(FLARE)),
+        docks.Funnel(throat, CONE * length, math.tan(FLARE)),
         Dock(1.0, 0.0, depth, throat * settings.heave, 0.0, math.tau / settings.heave_period),
-        Limits(settings.contact_speed, SIDEWAYS * settings.contact_speed, ALIGNED),
+        docks.Limits(settings.contact_speed, SIDEWAYS * settings.contact_speed, ALIGNED),
         context.control_period,
     )
 
@@ -147,25 +147,24 @@ def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -
     """Return a dock."""
     course, phase = math.tau * uniforms[0], math.tau * uniforms[4]
     dock = Dock(math.cos(course), math.sin(course), own.dock.depth, own.dock.heave, phase, own.dock.rate)
-    return Memory(dock, Contact(-own.distance, 0.0, 0.0, 0.0))
+    bow = approach(dock, Motion(*begun), own.to_bow)
+    return Memory(dock, Contact(-own.distance, 0.0, 0.0, 0.0), bow, bow)
 
 
 def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
     """Return the dock one control period on, and whether the bow is in it or has struck it."""
     dock = later(memory.dock, own.period)
     bow = approach(dock, motion, own.to_bow)
-    return Memory(dock, contact(own.funnel, own.limits, memory.contact.ahead, bow))
+    return Memory(dock, contact(own.funnel, own.limits, memory.contact.ahead, bow), bow, memory.bow)
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
     """Return what `observations` lists."""
     depth, sinking, acceleration = heave_of(memory.dock)
     north, east, attitude = memory.dock.north, memory.dock.east, measured.attitude
-    docked = (-own.to_bow * north, -own.to_bow * east, depth)
+    to_dock = subtract((-own.to_bow * north, -own.to_bow * east, depth), measured.position_ned)
     return (
-        bounded_vector(
-            rotate_inverse(attitude, subtract(docked, measured.position_ned)), 2.0 * LOST * own.distance
-        ),
+        bounded_vector(rotate_inverse(attitude, to_dock), 2.0 * LOST * own.distance),
         rotate_inverse(attitude, (north, east, 0.0)),
         rotate_inverse(attitude, (-east, north, 0.0)),
         observed_velocity(measured),
@@ -195,21 +194,20 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
 
 def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
     """Return how far and how well the bow is before the dock."""
-    bow = approach(memory.dock, motion, own.to_bow)
+    bow = memory.bow
     return Metrics(norm(bow.place), across(bow.place), bow.angle, memory.contact.speed)
 
 
 def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
-    metrics = now.metrics
-    wide = metrics.cross_error / (own.funnel.throat + own.funnel.flare * metrics.distance)
-    turned = metrics.angle_error / ALIGNED
+    memory, far = now.memory, FAR * own.distance
+    nearer, inward, aligned = gained(own.funnel, own.limits, far, memory.bow, memory.before)
     return Rewards(
-        nearness=weights.nearness * math.exp(-metrics.distance / (0.5 * own.distance)),
-        cone=weights.cone * math.exp(-wide * wide),
-        angle=weights.angle * math.exp(-turned * turned),
-        docked=weights.docked * now.memory.contact.docked,
-        struck=-(weights.struck * now.memory.contact.struck),
+        nearness=weights.nearness * nearer,
+        cone=weights.cone * inward,
+        angle=weights.angle * aligned,
+        docked=weights.docked * memory.contact.docked,
+        struck=-(weights.struck * memory.contact.struck),
         effort=effort(weights.effort, now),
     )
 
@@ -244,7 +242,7 @@ define_task(
         "medium": {"current": 0.2},
         "hard": {"heave": 2.0, "angle": 60.0, "current": 0.3, "randomise": "default", "sensors": "auv"},
     },
-    unsuitable=unable_to_dive_under_way,
-    control_period=paced,
+    unsuitable=suitability.unable_to_dive_under_way,
+    control_period=suitability.paced,
     max_episode_steps=900,
 )

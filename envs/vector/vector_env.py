@@ -167,11 +167,11 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
         """
         self._need_reset("step")
         arrays = self._memory.arrays
-        waiting = arrays.ended[: self.num_envs].copy()
-        if self.autoreset_mode is AutoresetMode.DISABLED and waiting.any():
+        if self.autoreset_mode is AutoresetMode.DISABLED and arrays.ended[: self.num_envs].any():
+            waiting = int(arrays.ended.argmax())
             raise ResetNeeded(
-                f"the episode of environment {int(waiting.argmax())} has ended and autoreset is disabled; reset it "
-                "with options={'reset_mask': ...}"
+                f"the episode of environment {waiting} has ended and autoreset is disabled; reset it with "
+                "options={'reset_mask': ...}"
             )
         self._take(actions)
         self._infos.before_step()
@@ -183,12 +183,8 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             self.single.substeps,
             float(self.max_episode_steps),
         )
-        np.add(
-            self._lanes.fallbacks,
-            self._memory.outcome(FALLBACKS),
-            out=self._lanes.fallbacks,
-            casting="unsafe",
-        )
+        fallbacks = self._memory.outcome(FALLBACKS).astype(np.int64)
+        self._lanes.fallbacks += fallbacks
         if self._watch is not None:
             index = self._watch.index
             self._watch.offer(lambda: self.at(index).snapshot())
@@ -198,7 +194,7 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
             self._given(arrays.rewards[: self.num_envs]),
             self._given(terminated),
             self._given(truncated),
-            self._infos.at_step(terminated | truncated),
+            self._infos.at_step(terminated | truncated, fallbacks),
         )
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
@@ -380,9 +376,9 @@ class MarineVectorEnv(VectorEnv[Observations, NDArray[Any], NDArray[Any]]):
 
     def _take(self, actions: NDArray[Any]) -> None:
         """Check the actions and put them where compiled code takes them."""
-        places = self.single.action_mapping.places
+        places, taken = self.single.action_mapping.places, self._lanes.actions
         given = checked_actions(actions, (self.num_envs, len(places)))
-        self._lanes.actions[:, places] = given
+        taken[:, slice(None) if len(places) == taken.shape[1] else places] = given
 
     def _observations(self) -> Observations:
         flat, places = self._memory.arrays.observations[: self.num_envs], self.single.observation_places

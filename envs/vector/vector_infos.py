@@ -12,7 +12,6 @@ from dq_marine.envs.core.observation import as_shown
 from dq_marine.envs.core.refusal import integration_report
 from dq_marine.envs.vector.lane_memory import (
     COMPLETED,
-    FALLBACKS,
     RESIDUAL_SQUARED,
     SPEED_SQUARED,
     SPIN_SQUARED,
@@ -63,19 +62,17 @@ class VectorInfos:
         self.refusals = {}
         return self._reported(wanted, self._none_refused, self._no_fallbacks)
 
-    def at_step(self, ended: Flags) -> dict[str, Any]:
+    def at_step(self, ended: Flags, fallbacks: Counts) -> dict[str, Any]:
         """Return a step's infos.
 
         Args:
             ended: environments whose episode ended in this step.
+            fallbacks: of each in this step; the infos take the array as their own.
         """
         refused = self._refused()
-        fallbacks = self._lanes.memory.outcome(FALLBACKS).astype(np.int64)
-        if self._envs.autoreset_mode is not AutoresetMode.SAME_STEP:
+        if self._envs.autoreset_mode is not AutoresetMode.SAME_STEP or not np.count_nonzero(ended):
             return self._reported(self._everywhere, refused, fallbacks)
         infos = self._reported(self._everywhere, self._none_refused, np.where(ended, 0, fallbacks))
-        if not ended.any():
-            return infos
         observations = np.full(self._lanes.n, None, dtype=object)
         flat, places = self._lanes.memory.arrays.final_observations, self._lanes.first.observation_places
         for index in np.flatnonzero(ended).tolist():
@@ -106,7 +103,7 @@ class VectorInfos:
         """Return where the integrator refused the step, and keep why."""
         refused = self._lanes.memory.outcome(STATUS) != 0.0
         self.refusals = {}
-        if not refused.any():
+        if not np.count_nonzero(refused):
             return self._none_refused
         indices = np.flatnonzero(refused)
         self.episodes_refused += len(indices)

@@ -3,6 +3,7 @@
 import math
 
 import gymnasium as gym
+import numpy as np
 import pytest
 from support.sweeps import sweep
 
@@ -47,6 +48,27 @@ def test_who_goes_straight_for_the_berth_strikes_a_pier():
     straight = DPController.for_env(env)
     struck = [fly_episode(env, straight, seed=seed).measured["impact_speed"][-1] > 0.2 for seed in range(4)]
     assert all(struck)
+
+
+def test_coming_nearer_earns_what_it_changed_and_waiting_nothing():
+    """However the vessel goes about it, the shaped terms add up to potentials at the end less those at the start."""
+    env = gym.make(ID, vehicle="otter")
+    length = load_vehicle("otter").dimensions.length
+    far = 0.5 * 12.0 * length
+
+    def potentials(info):
+        near, turned = info["distance"], math.degrees(info["heading_error"]) / 5.0
+        merits = (math.exp(-near / far), math.exp(-2.0 * near / length), math.exp(-(turned**2)))
+        return np.array([30.0, 10.0, 5.0]) * merits
+
+    rng, (_, info) = np.random.default_rng(0), env.reset(seed=3)
+    begun, earned = potentials(info), np.zeros(3)
+    for _ in range(100):
+        action = rng.uniform(-1.0, 1.0, env.action_space.shape).astype(np.float32)
+        _, _, ended, _, info = env.step(action)
+        earned += [info[f"reward/{term}"] for term in ("nearness", "precision", "heading")]
+        assert not ended
+    np.testing.assert_allclose(earned, potentials(info) - begun, rtol=0.0, atol=1e-9)
 
 
 @pytest.mark.parametrize("uniforms", [(0.3, 0.2, 0.0, 0.0, 0.0, 0.0), (0.8, 0.7, 0.999, 0.999, 0.999, 0.999)])

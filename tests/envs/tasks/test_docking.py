@@ -15,9 +15,12 @@ from dq_marine.agents.controllers.docking import DockingController
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.evaluation.episodes import fly_episode
 from dq_marine.algebra.spatial import Spatial
+from dq_marine.envs.core.definition import EpisodeContext
+from dq_marine.envs.core.registry import task_called
 from dq_marine.errors import InvalidInputError, UnsuitableVehicleWarning
 from dq_marine.integrator.body import Motion
 from dq_marine.task.docks import Approach, Dock, Funnel, Limits, approach, contact, heave_of, later
+from dq_marine.vehicles import load_vehicle
 
 ID = "dq_marine/Docking-v0"
 FUNNEL, LIMITS = Funnel(throat=0.1, length=0.5, flare=0.4), Limits(ahead=0.3, across=0.15, angle=0.2)
@@ -124,6 +127,27 @@ def test_who_goes_straight_for_the_goal_often_strikes_the_dock():
     straight, baseline = DPController.for_env(env), controller_for(env)
     assert sum(fly_episode(env, straight, seed=seed).success for seed in range(12)) <= 8
     assert all(fly_episode(env, baseline, seed=seed).success for seed in range(12))
+
+
+def test_coming_nearer_earns_what_it_changed_and_waiting_nothing():
+    """However the vehicle goes about it, the shaped terms add up to potentials at the end less those at the start."""
+    env = gym.make(ID)
+    definition, vehicle = task_called(ID), load_vehicle("bluerov2_heavy")
+    own = definition.parameters(definition.checked_settings({}, vehicle), EpisodeContext(vehicle, 0.1, {}))
+
+    def potentials(info):
+        wide = info["cross_error"] / (own.funnel.throat + own.funnel.flare * info["distance"])
+        turned = math.degrees(info["angle_error"]) / 15.0
+        near = math.exp(-2.0 * info["distance"] / own.distance)
+        return np.array([30.0 * near, 10.0 * math.exp(-(wide**2)), 5.0 * math.exp(-(turned**2))])
+
+    rng, (_, info) = np.random.default_rng(0), env.reset(seed=3)
+    begun, earned = potentials(info), np.zeros(3)
+    for _ in range(150):
+        _, _, ended, _, info = env.step(rng.uniform(-1.0, 1.0, 6).astype(np.float32))
+        earned += [info[f"reward/{term}"] for term in ("nearness", "cone", "angle")]
+        assert not ended
+    np.testing.assert_allclose(earned, potentials(info) - begun, rtol=0.0, atol=1e-9)
 
 
 @pytest.mark.parametrize(
