@@ -10,12 +10,12 @@ INSTALL := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-versi
 # where a shell asks for none to be kept.
 KEEP_BYTECODE := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode
 
-.PHONY: demo test lint docs interop clean help
+.PHONY: demo test lint docs interop policies clean help
 
 help:  ## list the commands
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*## /\t/'
 
-demo: $(VENV)/.demo  ## fly three tasks by their controllers; write their replays side by side, and a plot
+demo: $(VENV)/.demo  ## fly three tasks by their controllers and one by a policy; write replays side by side, and a plot
 	@$(BIN)/dq-marine demo --out demo
 
 test: $(VENV)/.test  ## run every test; installs Chromium where it may, else skips what needs it
@@ -35,6 +35,13 @@ interop: $(VENV)/.test  ## install what CI tests besides: TorchRL, Minari, the d
 	@$(INSTALL) --editable ".[render,agents,bem,dev,interop,docs]"
 	@touch $(VENV)/.docs
 
+policies: $(VENV)/.test  ## train the policies that come with the package anew, as their presets say (half an hour)
+	@for name in $(notdir $(basename $(wildcard agents/presets/[A-Z]*.toml))); do \
+		$(BIN)/dq-marine train --preset $$name --run runs/$$name --force && \
+		$(BIN)/dq-marine export runs/$$name --out agents/shipped/$$name/$$name.onnx --episodes 200 --seed 5000000 --force \
+		|| exit 1; \
+	done
+
 clean:  ## remove the virtual environment and what the commands wrote
 	rm -rf $(VENV) build dist demo *.egg-info .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
 
@@ -44,7 +51,7 @@ $(BIN)/python:
 
 $(VENV)/.demo: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "dq-marine: installing the simulator and its viewer (about a minute)"
-	@$(INSTALL) --editable ".[render]"
+	@$(INSTALL) --editable ".[render,deploy]"
 	@touch $@
 
 $(VENV)/.test: pyproject.toml constraints.txt | $(BIN)/python

@@ -1,4 +1,8 @@
-"""Reading preset files."""
+"""Reading preset files.
+
+A preset may begin with `based_on`, the name of another preset or the path of its file: then it says only what it has
+otherwise. A table of it takes the other's keys that it does not name; a table within a table replaces the other's.
+"""
 
 from __future__ import annotations
 
@@ -16,6 +20,9 @@ from dq_marine.checks import existing_file, shown
 from dq_marine.errors import InvalidInputError
 
 PRESET_FOLDER = Path(__file__).parent / "presets"
+
+BASE = "based_on"
+"""The key that names the preset whose settings are taken where a file says nothing."""
 
 SettingsType = TypeVar("SettingsType", bound=Settings)
 
@@ -52,7 +59,36 @@ def read_environment(preset: str | os.PathLike[str]) -> EnvironmentSettings:
     return validate_settings(content["environment"], EnvironmentSettings, source=f"{path}: [environment]")
 
 
-def _content(path: Path) -> dict[str, Any]:
+def _content(path: Path, derived: tuple[Path, ...] = ()) -> dict[str, Any]:
+    """Return what a file says, and what it is based on says where it does not.
+
+    Args:
+        path: of the file.
+        derived: files that are based on it, the nearest last.
+    """
+    content = _parsed(path)
+    if BASE not in content:
+        return content
+    base = content.pop(BASE)
+    if not isinstance(base, str):
+        raise InvalidInputError(f"{path}: {BASE} = {shown(base)}; give the name of a preset or a file's path")
+    found, chain = _preset_path(base), (*derived, path)
+    if found.resolve() in [one.resolve() for one in chain]:
+        raise InvalidInputError(f"{path}: {BASE} = {base!r} leads back to it; base it on another preset")
+    return _over(_content(found, chain), content)
+
+
+def _over(base: dict[str, Any], content: dict[str, Any]) -> dict[str, Any]:
+    """Return `base` with what `content` says in its place."""
+    tables = {
+        name: {**base[name], **value}
+        for name, value in content.items()
+        if isinstance(value, dict) and isinstance(base.get(name), dict)
+    }
+    return base | content | tables
+
+
+def _parsed(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

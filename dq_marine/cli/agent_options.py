@@ -15,6 +15,7 @@ from dq_marine.agents.keywords import with_changes
 from dq_marine.agents.policies import is_exported
 from dq_marine.agents.preset_files import read_environment, read_settings, validate_settings
 from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
+from dq_marine.agents.shipped_policies import policy_path
 from dq_marine.checks import one_of
 from dq_marine.cli.keyword_values import read_keywords
 from dq_marine.envs.core.perturbations import PERTURBATIONS
@@ -93,17 +94,18 @@ def requested_policies(policies: Sequence[str]) -> list[Path]:
     """Return the paths of policies, those on the hub downloaded if need be.
 
     Args:
-        policies: exported files, folders of training runs, and addresses as hf://OWNER/NAME@REVISION.
+        policies: names of those that come with the package, exported files, folders of training runs, and addresses as
+            hf://OWNER/NAME@REVISION.
 
     Raises:
-        InvalidInputError: an address is wrong, or the hub refuses.
+        InvalidInputError: there is none at a path, an address is wrong, or the hub refuses.
         MissingDependencyError: the hub's client is needed, and is not installed.
     """
     if any(one.startswith(SCHEME) for one in policies):
         from dq_marine.agents.deployment.hub import fetched  # here: few need it
 
-        return [fetched(one) if one.startswith(SCHEME) else Path(one) for one in policies]
-    return [Path(one) for one in policies]
+        return [fetched(one) if one.startswith(SCHEME) else policy_path(one) for one in policies]
+    return [policy_path(one) for one in policies]
 
 
 def requested_environment(

@@ -114,7 +114,10 @@ AlgorithmOption = Annotated[
 TrainingPresetOption = Annotated[
     str | None,
     typer.Option(
-        "--preset", help="Name of a preset, or path of a TOML file.", show_default="the algorithm's"
+        "--preset",
+        help="Name of a preset, of an algorithm or of a task whose policy comes with this package; or path of a TOML "
+        "file.",
+        show_default="the algorithm's",
     ),
 ]
 EnvsOption = Annotated[
@@ -125,7 +128,10 @@ ProcessesOption = Annotated[
     int | None,
     typer.Option("--processes", min=1, max=256, help="How many work at a time.", show_default="all cores"),
 ]
-POLICY = "Exported policy (.onnx), or hf://OWNER/NAME@REVISION on the Hugging Face Hub"
+POLICY = (
+    "Exported policy (.onnx); task whose policy comes with this package, such as StationKeeping; or "
+    "hf://OWNER/NAME@REVISION on the Hugging Face Hub"
+)
 PolicyOption = Annotated[str | None, typer.Option("--policy", help=f"{POLICY}: it flies, without torch.")]
 PoliciesOption = Annotated[list[str] | None, typer.Option("--policy", help=f"{POLICY}; may be repeated.")]
 StartSeedOption = Annotated[

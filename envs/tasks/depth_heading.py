@@ -15,7 +15,7 @@ from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_dive_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along
 from dq_marine.integrator.body import Motion
-from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
+from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity, peak
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.starts import under_way
 
@@ -23,6 +23,7 @@ STEPS, STEP_DRAWS = 3, 3  # orders in an episode, and random numbers for each
 PERIODS = 300  # control periods of each order
 FIRST_DEPTH, LEAST_DEPTH = 30.0, 5.0  # of starts (or ten lengths, if more), and of orders at least [m]
 DEPTH, HEADING, SPEED = 0.3, math.radians(3.0), 0.1  # settled within these [m, rad, share of the cruise]
+FAR_OFF = 0.5  # heading error from which on rewards tell little [rad]
 HELD = 5.0  # success of an order: settled for that long [s]
 LOST = 3.0  # episodes end beyond this error of depth [largest steps of depth]
 
@@ -86,7 +87,7 @@ class Metrics(NamedTuple):
 
 
 class Rewards(NamedTuple):
-    """Terms of the reward, and their weights: peaks at depth, heading and speed; settled; effort."""
+    """Terms of the reward, and their weights: peaks at depth, heading and speed, wide at the foot; settled; effort."""
 
     depth: float = 0.4
     heading: float = 0.4
@@ -192,10 +193,11 @@ def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
 
 def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
+    metrics = now.metrics
     return Rewards(
-        weights.depth * math.exp(-now.metrics.depth_error / DEPTH),
-        weights.heading * math.exp(-now.metrics.heading_error / (4.0 * HEADING)),
-        weights.speed * math.exp(-now.metrics.speed_error / (SPEED * own.speed)),
+        weights.depth * peak(metrics.depth_error, DEPTH, own.depth_step),
+        weights.heading * peak(metrics.heading_error, HEADING, FAR_OFF),
+        weights.speed * peak(metrics.speed_error, SPEED * own.speed, own.speed),
         weights.settled * select(now.memory.settled > 0.0, 1.0, 0.0),
         effort(weights.effort, now),
     )

@@ -7,13 +7,14 @@ from pathlib import Path
 import pytest
 from support.trainings import ALGORITHMS
 
-from dq_marine.agents.preset_files import PRESET_FOLDER, preset_names, read_settings
+from dq_marine.agents.preset_files import PRESET_FOLDER, preset_names, read_environment, read_settings
 from dq_marine.agents.settings import (
     AutopilotSettings,
     AvoidanceSettings,
     ControllerSettings,
     TrainingSettings,
 )
+from dq_marine.agents.shipped_policies import shipped_policies
 from dq_marine.errors import InvalidInputError
 
 
@@ -27,19 +28,8 @@ def edited(tmp_path: Path, preset: str, old: str, new: str) -> Path:
 
 
 def test_shipped_presets_are_valid() -> None:
-    assert preset_names() == [
-        "autopilot",
-        "avoidance",
-        "crossq",
-        "dp_controller",
-        "over_ground",
-        "ppo",
-        "recurrent_ppo",
-        "sac",
-        "td3",
-        "tqc",
-        "trajectory",
-    ]
+    controllers = ["autopilot", "avoidance", "dp_controller", "over_ground", "trajectory"]
+    assert preset_names() == sorted([*controllers, *ALGORITHMS, *shipped_policies()])
     read_settings("dp_controller", ControllerSettings)
     read_settings("autopilot", AutopilotSettings)
     read_settings("avoidance", AvoidanceSettings)
@@ -74,11 +64,57 @@ def test_controller_mistakes_are_named(tmp_path: Path) -> None:
         read_settings(path, ControllerSettings)
 
 
+def test_a_preset_says_only_what_it_has_otherwise(tmp_path: Path) -> None:
+    (tmp_path / "middle.toml").write_text(
+        'based_on = "ppo"\n[algorithm]\ngamma = 0.99\n[environment]\nid = "dq_marine/Docking-v0"\nkeywords = '
+        '{level = "easy"}',
+        encoding="utf-8",
+    )
+    mine = tmp_path / "mine.toml"
+    mine.write_text(
+        f'based_on = "{(tmp_path / "middle.toml").as_posix()}"\nenvs = 8\ntorch_threads = 2', encoding="utf-8"
+    )
+    shipped, derived = read_settings("ppo", TrainingSettings), read_settings(mine, TrainingSettings)
+    assert derived.environment == read_environment(mine)
+    assert (derived.environment.id, derived.environment.keywords) == (
+        "dq_marine/Docking-v0",
+        {"level": "easy"},
+    )
+    assert (derived.envs, derived.torch_threads, derived.algorithm.gamma) == (8, 2, 0.99)
+    as_shipped = {"envs": 32, "torch_threads": 1, "environment": shipped.environment}
+    assert (
+        derived.model_copy(
+            update={
+                **as_shipped,
+                "algorithm": derived.algorithm.model_copy(update={"gamma": 0.98}),
+            }
+        )
+        == shipped
+    )
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ('based_on = "mine.toml"', r"mine\.toml: based_on = .* leads back to it"),
+        ('based_on = "ddpg"', "no preset or file 'ddpg'"),
+        ("based_on = 3", "based_on = 3; give the name of a preset or a file's path"),
+    ],
+)
+def test_what_a_preset_cannot_be_based_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str, message: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mine.toml").write_text(line, encoding="utf-8")
+    with pytest.raises(InvalidInputError, match=message):
+        read_settings("mine.toml", TrainingSettings)
+
+
 def test_what_is_no_preset(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInputError,
-        match="no preset or file 'ddpg'; the presets are autopilot, avoidance, crossq, dp_controller, over_ground, "
-        "ppo, recurrent_ppo, sac, td3, tqc, trajectory",
+        match=r"no preset or file 'ddpg'; the presets are .*StationKeeping, .*autopilot, avoidance, crossq, "
+        "dp_controller, over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from dq_marine.agents import demo
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, make_environment, marine, with_keywords
-from dq_marine.agents.evaluation import demo
 from dq_marine.agents.evaluation.episodes import Episode, fly_episode
 from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, far_seed, fly
 from dq_marine.errors import InvalidInputError

@@ -1,7 +1,8 @@
-"""The demonstration: three tasks flown by their baselines, side by side in one page."""
+"""The demonstration: three tasks flown by their baselines, one by a policy, too, side by side in one page."""
 
 from __future__ import annotations
 
+import importlib.util
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,14 +15,16 @@ from dq_marine.agents.controllers.baselines import Agent, controller_for
 from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT
 from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, episode_table, fly
+from dq_marine.agents.policies import load_policy
 from dq_marine.agents.settings import EnvironmentSettings
+from dq_marine.agents.shipped_policies import shipped_policies
 from dq_marine.errors import InvalidInputError
 from dq_marine.viewer.live import display_present
 
 
 @dataclass(frozen=True)
 class Flight:
-    """One of the three: where its replay goes, how it is flown, and what is seen.
+    """One of them: where its replay goes, how it is flown, and what is seen.
 
     Attributes:
         file: name of the replay.
@@ -36,6 +39,11 @@ class Flight:
     plan: FlightPlan
     seen: str
     agent: Callable[[gym.Env[Any, Any]], Agent] = controller_for
+
+
+def trained(env: gym.Env[Any, Any]) -> Agent:
+    """Return the policy for station keeping that comes with the package."""
+    return load_policy(shipped_policies()["StationKeeping"])
 
 
 STATION = Flight(
@@ -57,6 +65,15 @@ STATION = Flight(
     DPController.for_env,
 )
 
+TRAINED = Flight(
+    "trained.html",
+    "The same, flown by a policy that learned it",
+    STATION.plan,
+    "The same start in the same current. The policy has learned with vehicles whose masses, damping and added masses "
+    "were drawn at random, and flies one that it has never seen.",
+    trained,
+)
+
 DOCKING = Flight(
     "docking.html",
     "BlueROV2 Heavy, docking: a funnel that heaves, in a current of 0.2 m/s",
@@ -75,7 +92,14 @@ ENCOUNTER = Flight(
     "The grey vessels keep course and speed. The Otter gives way to the right side, and returns to its route.",
 )
 
-FLIGHTS = (STATION, DOCKING, ENCOUNTER)
+FLIGHTS = (STATION, TRAINED, DOCKING, ENCOUNTER)
+
+
+def possible_flights() -> tuple[Flight, ...]:
+    """Return the flights that the installed libraries allow: without onnxruntime those without a policy."""
+    if importlib.util.find_spec("onnxruntime") is None:
+        return tuple(flight for flight in FLIGHTS if flight is not TRAINED)
+    return FLIGHTS
 
 
 def run_demo(folder: Path, console: Console) -> None:
@@ -98,15 +122,18 @@ def run_demo(folder: Path, console: Console) -> None:
             f"{folder} cannot be made: {error.strerror}; give another with --out"
         ) from error
     plot, page = folder / "errors.png", folder / "index.html"
-    for number, flight in enumerate(FLIGHTS, start=1):
-        console.print(f"{number} of {len(FLIGHTS)}: {flight.title} ...", soft_wrap=True)
+    flights = possible_flights()
+    for number, flight in enumerate(flights, start=1):
+        console.print(f"{number} of {len(flights)}: {flight.title} ...", soft_wrap=True)
         outputs = Outputs(html=folder / flight.file, plot=plot if flight is STATION else None)
         episode = fly(flight.plan, flight.agent, outputs, title=flight.title)
         console.print(flight.seen, soft_wrap=True)
         console.print(episode_table(episode))
-    save_side_by_side(page, {flight.title: folder / flight.file for flight in FLIGHTS})
-    console.print(f"All three: {page} (open it in a browser: play, pause, drag the sliders)", soft_wrap=True)
-    for flight in FLIGHTS:
+    save_side_by_side(page, {flight.title: folder / flight.file for flight in flights})
+    console.print(
+        f"All of them: {page} (open it in a browser: play, pause, drag the sliders)", soft_wrap=True
+    )
+    for flight in flights:
         console.print(f"Replay:    {folder / flight.file}", soft_wrap=True)
     console.print(f"Plot:      {plot} (errors and actions of the first against time)", soft_wrap=True)
     if display_present():

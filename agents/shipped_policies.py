@@ -1,0 +1,38 @@
+"""Policies that come with the package: one for a task, called by the task's name.
+
+How each was trained says the preset of the same name; how well it flies, and with what, the card beside it.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from dq_marine.agents.deployment.onnx_policy import ENDING
+from dq_marine.checks import shown
+from dq_marine.errors import InvalidInputError
+
+SHIPPED_FOLDER = Path(__file__).parent / "shipped"
+
+
+def shipped_policies() -> dict[str, Path]:
+    """Return the files of the policies by name, sorted."""
+    return {path.stem: path for path in sorted(SHIPPED_FOLDER.glob(f"*/*{ENDING}"))}
+
+
+def policy_path(policy: str) -> Path:
+    """Return the path of a policy.
+
+    Args:
+        policy: name of one that comes with the package; or the path of an exported file or of a run's folder.
+
+    Raises:
+        InvalidInputError: it is neither.
+    """
+    shipped = shipped_policies()
+    path = shipped.get(policy, Path(policy))
+    if path.exists():
+        return path
+    raise InvalidInputError(
+        f"there is no policy {shown(policy)}; give the path of an exported file or of a run's folder, hf://OWNER/NAME, "
+        f"or the name of one that comes with the package: {', '.join(shipped)}"
+    )

@@ -1,0 +1,57 @@
+"""Policies that come with the package: small, trained as their presets say, found by name, and still successful."""
+
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+from support.command_line import assert_refused, run
+from support.sweeps import sweep
+
+from dq_marine.agents.deployment.model_card import CARD_FILE
+from dq_marine.agents.environments import make_environment
+from dq_marine.agents.evaluation.evaluation import evaluate
+from dq_marine.agents.policies import load_policy, trained_environment
+from dq_marine.agents.preset_files import read_settings
+from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.shipped_policies import policy_path, shipped_policies
+from dq_marine.envs.core.registry import task_called
+from dq_marine.errors import InvalidInputError
+
+LARGEST = 2**20
+"""Bytes of a policy."""
+
+EPISODES, LEAST = 10, 0.8
+UNSEEN = 5_000_000
+"""Seed of the first: beyond those of trainings and evaluations."""
+
+
+@pytest.mark.parametrize("name", shipped_policies())
+def test_each_is_small_and_was_trained_as_its_preset_says(name: str) -> None:
+    path, settings = policy_path(name), read_settings(name, TrainingSettings)
+    assert path.stat().st_size <= LARGEST
+    assert trained_environment(path) == settings.environment
+    assert settings.environment.id == task_called(settings.environment.id).id == f"dq_marine/{name}-v0"
+    card = (path.parent / CARD_FILE).read_text(encoding="utf-8")
+    preset = card.split("```toml\n")[1].split("```")[0]
+    assert TrainingSettings.model_validate(tomllib.loads(preset)) == settings
+
+
+@pytest.mark.parametrize("name", sweep(shipped_policies(), plain=["StationKeeping"]))
+def test_each_succeeds_in_episodes_that_it_has_never_seen(name: str) -> None:
+    path = policy_path(name)
+    env = make_environment(trained_environment(path))
+    (score,) = evaluate(env, {name: load_policy(path)}, episodes=EPISODES, seed=UNSEEN)
+    assert score.success_rate >= LEAST
+
+
+def test_a_policy_is_flown_by_the_name_of_its_task() -> None:
+    flown = run("evaluate", "--policy", "StationKeeping", "--agent", "zero", "--episodes", "1")
+    assert flown.exit_code == 0, flown.output
+    assert "StationKeeping" in flown.output
+
+
+def test_what_is_no_policy_is_answered_with_the_names() -> None:
+    assert_refused(run("fly", "--policy", "StationKeepin"), "no policy .StationKeepin.; .*TrajectoryTracking")
+    with pytest.raises(InvalidInputError, match="TrajectoryTracking"):
+        policy_path("no/such/run")
