@@ -26,13 +26,13 @@ def policy_path(policy: str) -> Path:
         policy: name of one that comes with the package; or the path of an exported file or of a run's folder.
 
     Raises:
-        InvalidInputError: it is neither.
+        InvalidInputError: it is a bare name of neither; what is wrong at a longer path is found when it is read.
     """
     shipped = shipped_policies()
     path = shipped.get(policy, Path(policy))
-    if path.exists():
+    if path.exists() or path.suffix or path.name != policy:
         return path
     raise InvalidInputError(
-        f"there is no policy {shown(policy)}; give the path of an exported file or of a run's folder, hf://OWNER/NAME, "
-        f"or the name of one that comes with the package: {', '.join(shipped)}"
+        f"{shown(policy)} holds no run, and no policy that comes with the package is called so: those are "
+        f"{', '.join(shipped)}; give one of them, a run's folder, an exported file or hf://OWNER/NAME"
     )

@@ -52,6 +52,9 @@ def test_a_policy_is_flown_by_the_name_of_its_task() -> None:
 
 
 def test_what_is_no_policy_is_answered_with_the_names() -> None:
-    assert_refused(run("fly", "--policy", "StationKeepin"), "no policy .StationKeepin.; .*TrajectoryTracking")
-    with pytest.raises(InvalidInputError, match="TrajectoryTracking"):
-        policy_path("no/such/run")
+    assert_refused(
+        run("fly", "--policy", "StationKeepin"),
+        "'StationKeepin' holds no run, and no policy .*TrajectoryTracking",
+    )
+    with pytest.raises(InvalidInputError, match="hf://OWNER/NAME"):
+        policy_path("nowhere")
