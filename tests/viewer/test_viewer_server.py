@@ -21,6 +21,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from dq_marine.viewer import LiveViewer, ViewerError
+from dq_marine.viewer.transport.messages import set_property
 from dq_marine.viewer.transport.server_process import STARTER, ServerProcess
 
 LOOPBACK_IN_PROC = "0100007F"
@@ -172,6 +173,25 @@ def test_a_silent_server_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ViewerError, match=r"no answer .* within 0.5 s"):
         viewer.draw(snapshot())
     assert not alive(pid)
+
+
+def test_a_page_that_is_told_to_leave_and_stays_holds_nothing_up(server: ServerProcess) -> None:
+    """The same as a page that is just leaving: its websocket is closing, and nothing can be written to it."""
+    address = urlsplit(server.web_url)
+    with socket.create_connection((address.hostname, address.port), timeout=60.0) as page:
+        page.sendall(
+            f"GET {address.path}socket HTTP/1.1\r\nHost: {address.netloc}\r\nUpgrade: websocket\r\n"
+            "Connection: Upgrade\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n"
+            "Sec-WebSocket-Version: 13\r\n\r\n".encode()
+        )
+        page.sendall(bytes([0x81, 0x81, 0, 0, 0, 0]) + b"x")  # a text, which is not a picture
+        said = b""
+        while b"not a picture" not in said:  # so the server closes, and waits for the page to close, too
+            more = page.recv(4096)
+            assert more
+            said += more
+        for _ in range(3):
+            server.send(set_property("/Background", "visible", True))
 
 
 def test_an_interrupted_wait_does_not_spoil_the_next_command(monkeypatch: pytest.MonkeyPatch) -> None:

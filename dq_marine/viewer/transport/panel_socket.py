@@ -11,7 +11,7 @@ import math
 from collections import deque
 from typing import Any
 
-import tornado.websocket
+from dq_marine.viewer.transport.page_connection import PageConnection
 
 POLICY_VIOLATION = 1008
 """Status of a websocket that is closed because of what came through it (RFC 6455, section 7.4.1)."""
@@ -42,7 +42,7 @@ class PanelHub:
         text = json.dumps(content)
         self._shown[topic] = text
         for socket in self._sockets:
-            socket.tell(text)
+            socket.write_message(text)
 
     def take_words(self) -> bytes:
         """Return what was said since the last call, oldest first, as a JSON list."""
@@ -54,7 +54,7 @@ class PanelHub:
         """Tell a new page what there is to show."""
         self._sockets.add(socket)
         for text in self._shown.values():
-            socket.tell(text)
+            socket.write_message(text)
 
     def disconnect(self, socket: PanelSocket) -> None:
         """Forget a page."""
@@ -66,7 +66,7 @@ class PanelHub:
         self._words.append(word)
 
 
-class PanelSocket(tornado.websocket.WebSocketHandler):
+class PanelSocket(PageConnection):
     """The websocket of one page's panel."""
 
     def initialize(self, hub: PanelHub) -> None:
@@ -75,13 +75,8 @@ class PanelSocket(tornado.websocket.WebSocketHandler):
 
     def open(self, *_: str, **__: str) -> None:
         """Join the hub."""
-        self.set_nodelay(True)  # see `PageSocket`
+        super().open()
         self._hub.connect(self)
-
-    def tell(self, text: str) -> None:
-        """Send a text, unless the page is just leaving."""
-        if self.ws_connection is not None and not self.ws_connection.is_closing():
-            self.write_message(text)
 
     def on_message(self, message: str | bytes) -> None:
         """Keep a word; close on anything else."""

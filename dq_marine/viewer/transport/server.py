@@ -39,6 +39,7 @@ from zmq.eventloop.zmqstream import ZMQStream
 
 from dq_marine.viewer.libraries import meshcat_page_folder
 from dq_marine.viewer.transport.loopback import LOOPBACK
+from dq_marine.viewer.transport.page_connection import PageConnection
 from dq_marine.viewer.transport.pages import CAPTURE_PAGE, LIVE_PAGE
 from dq_marine.viewer.transport.panel_socket import POLICY_VIOLATION, PanelHub, PanelSocket
 from dq_marine.viewer.transport.picture import is_picture
@@ -83,14 +84,8 @@ class LoopbackApplication(tornado.web.Application):
         return server
 
 
-class PageSocket(WebSocketHandler):  # type: ignore[misc]  # meshcat has no type hints
+class PageSocket(PageConnection, WebSocketHandler):  # type: ignore[misc]  # meshcat has no type hints
     """The websocket of a page, which may answer with a picture when it was asked for one, and say nothing else."""
-
-    def open(self) -> None:
-        """Begin with the whole scene."""
-        # Small messages at once: by TCP's default one waits until the page has acknowledged the one before, some 40 ms.
-        self.set_nodelay(True)
-        super().open()
 
     def on_message(self, message: str | bytes) -> None:
         """Pass a picture on, if one is still wanted; close on anything else."""
