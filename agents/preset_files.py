@@ -1,7 +1,8 @@
 """Reading preset files.
 
-A preset may begin with `based_on`, the name of another preset or the path of its file: then it says only what it has
-otherwise. A table of it takes the other's keys that it does not name; a table within a table replaces the other's.
+A preset may begin with `based_on`, the name of another preset or the path of its file. Then it gives only what differs:
+keys that it or one of its tables leaves out are the other's. A table within a table, such as the keywords of the
+environment, replaces the other's as a whole.
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ def read_environment(preset: str | os.PathLike[str]) -> EnvironmentSettings:
 
 
 def _content(path: Path, derived: tuple[Path, ...] = ()) -> dict[str, Any]:
-    """Return what a file says, and what it is based on says where it does not.
+    """Return what a file says, completed by what it is based on.
 
     Args:
         path: of the file.

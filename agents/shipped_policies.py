@@ -1,6 +1,7 @@
-"""Policies that come with the package: one for a task, called by the task's name.
+"""Trained policies that come with the package, at most one for each task and called by the task's name.
 
-How each was trained says the preset of the same name; how well it flies, and with what, the card beside it.
+The preset of the same name says how a policy was trained; the card beside its file says with which vehicle, and how
+well it flies.
 """
 
 from __future__ import annotations
@@ -33,6 +34,6 @@ def policy_path(policy: str) -> Path:
     if path.exists() or path.suffix or path.name != policy:
         return path
     raise InvalidInputError(
-        f"{shown(policy)} holds no run, and no policy that comes with the package is called so: those are "
-        f"{', '.join(shipped)}; give one of them, a run's folder, an exported file or hf://OWNER/NAME"
+        f"{shown(policy)} holds no run, and no policy that comes with the package has that name; give one of "
+        f"{', '.join(shipped)}, or a run's folder, an exported file or hf://OWNER/NAME"
     )

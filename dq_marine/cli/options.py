@@ -129,7 +129,7 @@ ProcessesOption = Annotated[
     typer.Option("--processes", min=1, max=256, help="How many work at a time.", show_default="all cores"),
 ]
 POLICY = (
-    "Exported policy (.onnx); task whose policy comes with this package, such as StationKeeping; or "
+    "Exported policy (.onnx); name of a task whose policy comes with this package, such as StationKeeping; or "
     "hf://OWNER/NAME@REVISION on the Hugging Face Hub"
 )
 PolicyOption = Annotated[str | None, typer.Option("--policy", help=f"{POLICY}: it flies, without torch.")]

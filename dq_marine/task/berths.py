@@ -17,7 +17,7 @@ from typing import NamedTuple
 from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, level_length, seen_at
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select
-from dq_marine.algebra.vector3 import Vector3, norm, subtract
+from dq_marine.algebra.vector3 import Vector3, norm
 from dq_marine.integrator.body import Motion
 from dq_marine.task.world.distances import box_distance, plane_distance
 from dq_marine.task.world.pillars import Hull
@@ -221,24 +221,17 @@ def berthing_kept(
     return berthing_seen(harbour, own, held, select(struck, 1.0, before.struck), impact)
 
 
-def gained(harbour: Harbour, box: Box, far: float, came: Berthing, before: Berthing) -> Vector3:
-    """Return by how much a vessel has come nearer to its berth, on the scales of afar and close by, and parallel to it.
+def merits(harbour: Harbour, box: Box, far: float, came: Berthing) -> Vector3:
+    """Return how near a vessel is to its berth, from afar and close by, and how parallel to the quay: each at most 1.
 
-    They are changes of potentials of at most 1, so that waiting off the quay earns nothing, as in
-    `dq_marine.task.docks.gained`.
+    Rewards are for their changes, as those of `dq_marine.task.docks.merits`: waiting off the quay earns nothing.
 
     Args:
         harbour: half the length of its hull is the scale close by.
         box: its angle is that of being parallel.
-        far: the scale of afar [m].
-        came: what has come of coming alongside, now.
-        before: the same a control period ago.
+        far: distance at which the nearness from afar is 1/e [m].
+        came: what has come of coming alongside.
     """
-    return subtract(_merits(harbour, box, far, came), _merits(harbour, box, far, before))
-
-
-def _merits(harbour: Harbour, box: Box, far: float, came: Berthing) -> Vector3:
-    """Return how near a vessel is, from afar and close by, and how parallel to the quay: each at most 1."""
     turned, length = came.angle / box.angle, harbour.hull.half_length
     return (math.exp(-came.distance / far), math.exp(-came.distance / length), math.exp(-turned * turned))
 

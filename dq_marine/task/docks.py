@@ -107,25 +107,18 @@ def approach(dock: Dock, motion: Motion, to_bow: float) -> Approach:
     return Approach(place, velocity, math.atan2(across(heading), heading[0]))
 
 
-def gained(funnel: Funnel, limits: Limits, far: float, bow: Approach, before: Approach) -> Vector3:
-    """Return by how much a bow has come nearer, farther into the cone before the dock, and to its axis' direction.
+def merits(funnel: Funnel, limits: Limits, far: float, bow: Approach) -> Vector3:
+    """Return how near a bow is, how well it is in the cone before the dock, and how well aligned: each 1 at the throat.
 
-    They are changes of potentials that are 1 at the throat, so that waiting before it earns nothing. A reward for being
-    near would make it worth while never to arrive (Ng, Harada and Russell, "Policy invariance under reward
-    transformations", ICML 1999).
+    Rewards are for their changes: then waiting before the dock earns nothing. A reward for being near would make it
+    worth while never to arrive (Ng, Harada and Russell, "Policy invariance under reward transformations", ICML 1999).
 
     Args:
         funnel: whose cone it is, carried on from its mouth.
-        limits: of contact; that of the angle is the scale of the direction.
+        limits: of contact; that of the angle is the scale of the alignment.
         far: distance at which the nearness is 1/e [m].
-        bow: seen from the dock, now.
-        before: the same a control period ago.
+        bow: seen from the dock.
     """
-    return subtract(_merits(funnel, limits, far, bow), _merits(funnel, limits, far, before))
-
-
-def _merits(funnel: Funnel, limits: Limits, far: float, bow: Approach) -> Vector3:
-    """Return how near a bow is, how well in the cone, and how well aligned: each 1 at the throat."""
     distance = norm(bow.place)
     wide = across(bow.place) / (funnel.throat + funnel.flare * distance)
     turned = bow.angle / limits.angle

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
-from dq_marine.algebra.vector3 import bounded, bounded_vector, scale, subtract
+from dq_marine.algebra.vector3 import Vector3, bounded, bounded_vector, scale, subtract
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.proportion import disturbed
@@ -17,11 +17,13 @@ from dq_marine.envs.kit import VELOCITY, EpisodeContext, ForVehicle, Goal, Obser
 from dq_marine.integrator.body import Motion
 from dq_marine.task import berths
 from dq_marine.task.berths import (
+    Berth,
+    Berthing,
     berthing_kept,
     drawn_berth,
     first_berthing,
     from_berth,
-    gained,
+    merits,
     room_left,
 )
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
@@ -38,10 +40,7 @@ GIVE, THICKNESS = 0.02, 0.25  # how far fenders can be pressed in; thickness of 
 NEAREST = (0.58, 0.4)  # starts: from these shares of distance and offing on
 START_TURN, START_DRAWS = math.radians(15.0), 6  # heading of starts, off the quay's [rad]
 PIERS = ForVehicle(lambda one: 0.0 if steers_only_under_way(one) else 1.0, "1, but 0 if nothing drives sway")
-LOST, FAR = (
-    2.0,
-    0.5,
-)  # episodes end beyond this distance; nearness is 1/e at this one [of the farthest start's]
+LOST, FAR = 2.0, 0.5  # episodes end beyond this distance; nearness is 1/e at this one [farthest starts']
 
 
 @dataclass(frozen=True)
@@ -87,11 +86,12 @@ class Parameters(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """The berth, and what came of coming alongside, now and a control period ago."""
+    """The berth, what came of coming alongside, and its merits, with what they gained in the control period."""
 
-    berth: berths.Berth
-    berthing: berths.Berthing
-    before: berths.Berthing
+    berth: Berth
+    berthing: Berthing
+    merits: Vector3
+    gained: Vector3
 
 
 class Metrics(NamedTuple):
@@ -148,14 +148,15 @@ def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -
     """Return the berth, and that nothing has come of it yet."""
     berth = drawn_berth(uniforms, 0)
     begins = first_berthing(own.harbour, berth, Motion(*begun))
-    return Memory(berth, begins, begins)
+    return Memory(berth, begins, merits(own.harbour, own.box, FAR * own.distance, begins), (0.0, 0.0, 0.0))
 
 
 def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
     """Return what came of a control period."""
     berth, before = memory.berth, memory.berthing
     came = berthing_kept(own.harbour, own.box, own.limits, berth, before, motion, own.period)
-    return Memory(berth, came, before)
+    merit = merits(own.harbour, own.box, FAR * own.distance, came)
+    return Memory(berth, came, merit, subtract(merit, memory.merits))
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
@@ -202,8 +203,7 @@ def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
 
 def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
-    came, before = now.memory.berthing, now.memory.before
-    nearer, closer, parallel = gained(own.harbour, own.box, FAR * own.distance, came, before)
+    nearer, closer, parallel = now.memory.gained
     return Rewards(
         nearness=weights.nearness * nearer,
         precision=weights.precision * closer,

@@ -7,15 +7,16 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.quaternion import rotate_inverse
-from dq_marine.algebra.vector3 import bounded_vector, norm, subtract
+from dq_marine.algebra.vector3 import Vector3, bounded_vector, norm, subtract
 from dq_marine.checks import finite_number
 from dq_marine.envs.core import suitability
 from dq_marine.envs.core.places import starting_depth
+from dq_marine.envs.core.suitability import cruising_speed, steers_only_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task, goal_along, spread
 from dq_marine.integrator.body import Motion
 from dq_marine.task import docks
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
-from dq_marine.task.docks import Contact, Dock, across, approach, contact, gained, heave_of, later
+from dq_marine.task.docks import Contact, Dock, across, approach, contact, heave_of, later, merits
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import dock_seen
 from dq_marine.task.starts import under_way
@@ -50,10 +51,8 @@ class Settings:
 
 def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings for a vehicle, checked."""
-    share = UNDER_WAY if suitability.steers_only_under_way(vehicle) else SLOW
-    contact = (
-        share * suitability.cruising_speed(vehicle) if given.contact_speed is None else given.contact_speed
-    )
+    share = UNDER_WAY if steers_only_under_way(vehicle) else SLOW
+    contact = share * cruising_speed(vehicle) if given.contact_speed is None else given.contact_speed
     return replace(
         given,
         distance=finite_number("distance", given.distance, least=3.0, most=1e3),
@@ -81,12 +80,12 @@ class Parameters(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """The dock, what came of the bow's approach, and how the bow is before it, now and a control period ago."""
+    """The dock, what came of the bow's approach, and its merits, with what they gained in the control period."""
 
     dock: Dock
     contact: Contact
-    bow: docks.Approach
-    before: docks.Approach
+    merits: Vector3
+    gained: Vector3
 
 
 class Metrics(NamedTuple):
@@ -111,19 +110,19 @@ class Rewards(NamedTuple):
 
 def starting_distance(settings: Any, vehicle: Any) -> float:
     """Return how far from the dock a vehicle starts [m]."""
-    farther = FARTHER if suitability.steers_only_under_way(vehicle) else 1.0
+    farther = FARTHER if steers_only_under_way(vehicle) else 1.0
     return float(farther * vehicle.dimensions.length * settings.distance)
 
 
 def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
     vehicle, length = context.vehicle, context.vehicle.dimensions.length
-    narrower = 1.0 / FARTHER if suitability.steers_only_under_way(vehicle) else 1.0
+    narrower = 1.0 / FARTHER if steers_only_under_way(vehicle) else 1.0
     throat, depth = max(LEAST_THROAT, THROAT * length), starting_depth(vehicle, LEAST_DEPTH)
     return Parameters(
         starting_distance(settings, vehicle),
         narrower * math.radians(settings.angle),
-        suitability.cruising_speed(vehicle) if suitability.steers_only_under_way(vehicle) else 0.0,
+        cruising_speed(vehicle) if steers_only_under_way(vehicle) else 0.0,
         0.5 * length,
         docks.Funnel(throat, CONE * length, math.tan(FLARE)),
         Dock(1.0, 0.0, depth, throat * settings.heave, 0.0, math.tau / settings.heave_period),
@@ -147,15 +146,17 @@ def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -
     """Return a dock."""
     course, phase = math.tau * uniforms[0], math.tau * uniforms[4]
     dock = Dock(math.cos(course), math.sin(course), own.dock.depth, own.dock.heave, phase, own.dock.rate)
-    bow = approach(dock, Motion(*begun), own.to_bow)
-    return Memory(dock, Contact(-own.distance, 0.0, 0.0, 0.0), bow, bow)
+    merit = merits(own.funnel, own.limits, FAR * own.distance, approach(dock, Motion(*begun), own.to_bow))
+    return Memory(dock, Contact(-own.distance, 0.0, 0.0, 0.0), merit, (0.0, 0.0, 0.0))
 
 
 def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
     """Return the dock one control period on, and whether the bow is in it or has struck it."""
     dock = later(memory.dock, own.period)
     bow = approach(dock, motion, own.to_bow)
-    return Memory(dock, contact(own.funnel, own.limits, memory.contact.ahead, bow), bow, memory.bow)
+    met = contact(own.funnel, own.limits, memory.contact.ahead, bow)
+    merit = merits(own.funnel, own.limits, FAR * own.distance, bow)
+    return Memory(dock, met, merit, subtract(merit, memory.merits))
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
@@ -194,20 +195,19 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
 
 def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
     """Return how far and how well the bow is before the dock."""
-    bow = memory.bow
+    bow = approach(memory.dock, motion, own.to_bow)
     return Metrics(norm(bow.place), across(bow.place), bow.angle, memory.contact.speed)
 
 
 def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
-    memory, far = now.memory, FAR * own.distance
-    nearer, inward, aligned = gained(own.funnel, own.limits, far, memory.bow, memory.before)
+    nearer, inward, aligned = now.memory.gained
     return Rewards(
         nearness=weights.nearness * nearer,
         cone=weights.cone * inward,
         angle=weights.angle * aligned,
-        docked=weights.docked * memory.contact.docked,
-        struck=-(weights.struck * memory.contact.struck),
+        docked=weights.docked * now.memory.contact.docked,
+        struck=-(weights.struck * now.memory.contact.struck),
         effort=effort(weights.effort, now),
     )
 

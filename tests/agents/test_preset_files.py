@@ -14,7 +14,6 @@ from dq_marine.agents.settings import (
     ControllerSettings,
     TrainingSettings,
 )
-from dq_marine.agents.shipped_policies import shipped_policies
 from dq_marine.errors import InvalidInputError
 
 
@@ -28,8 +27,27 @@ def edited(tmp_path: Path, preset: str, old: str, new: str) -> Path:
 
 
 def test_shipped_presets_are_valid() -> None:
-    controllers = ["autopilot", "avoidance", "dp_controller", "over_ground", "trajectory"]
-    assert preset_names() == sorted([*controllers, *ALGORITHMS, *shipped_policies()])
+    assert preset_names() == [
+        "DepthHeading",
+        "Docking",
+        "ObstacleAvoidance",
+        "PathFollowing",
+        "PipelineInspection",
+        "StationKeeping",
+        "TrajectoryTracking",
+        "WaypointTracking",
+        "autopilot",
+        "avoidance",
+        "crossq",
+        "dp_controller",
+        "over_ground",
+        "ppo",
+        "recurrent_ppo",
+        "sac",
+        "td3",
+        "tqc",
+        "trajectory",
+    ]
     read_settings("dp_controller", ControllerSettings)
     read_settings("autopilot", AutopilotSettings)
     read_settings("avoidance", AvoidanceSettings)
@@ -64,7 +82,7 @@ def test_controller_mistakes_are_named(tmp_path: Path) -> None:
         read_settings(path, ControllerSettings)
 
 
-def test_a_preset_says_only_what_it_has_otherwise(tmp_path: Path) -> None:
+def test_a_preset_based_on_another_gives_only_what_differs(tmp_path: Path) -> None:
     (tmp_path / "middle.toml").write_text(
         'based_on = "ppo"\n[algorithm]\ngamma = 0.99\n[environment]\nid = "dq_marine/Docking-v0"\nkeywords = '
         '{level = "easy"}',
@@ -113,7 +131,8 @@ def test_what_a_preset_cannot_be_based_on(
 def test_what_is_no_preset(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInputError,
-        match=r"no preset or file 'ddpg'; the presets are .*StationKeeping, .*autopilot, avoidance, crossq, "
+        match="no preset or file 'ddpg'; the presets are DepthHeading, Docking, ObstacleAvoidance, PathFollowing, "
+        "PipelineInspection, StationKeeping, TrajectoryTracking, WaypointTracking, autopilot, avoidance, crossq, "
         "dp_controller, over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
     ):
         read_settings("ddpg", TrainingSettings)
