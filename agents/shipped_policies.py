@@ -31,7 +31,7 @@ def policy_path(policy: str) -> Path:
     """
     shipped = shipped_policies()
     path = shipped.get(policy, Path(policy))
-    if path.exists() or path.suffix or path.name != policy:
+    if policy and (path.exists() or path.suffix or path.name != policy):
         return path
     raise InvalidInputError(
         f"{shown(policy)} holds no run, and no policy that comes with the package has that name; give one of "

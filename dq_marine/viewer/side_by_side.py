@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -24,9 +25,10 @@ PAGE = Template("""<!DOCTYPE html>
   h2 { font-size: 15px; font-weight: 600; margin: 0; padding: 6px 4px; }
   button { font: inherit; color: inherit; background: #0f5f86; border: 0; border-radius: 6px; padding: 6px 12px;
     cursor: pointer; }
-  main { flex: 1; display: grid; gap: 6px; grid-template-columns: repeat(auto-fit, minmax(min(340px, 100%), 1fr));
-    min-height: 0; }
-  section { display: flex; flex-direction: column; min-height: 60vh; }
+  main { flex: 1; display: grid; gap: 6px; min-height: 0;
+    grid-template-columns: repeat(auto-fit, minmax(max(min(340px, 100%), $share%), 1fr)); }
+  section { display: flex; flex-direction: column; min-height: 42vh; }
+  @media (max-width: 700px) { section { min-height: 60vh; } }
   iframe { flex: 1; border: 0; width: 100%; }
 </style></head>
 <body>
@@ -53,6 +55,9 @@ $panels
 </body>
 </html>
 """)
+
+MOST_BESIDE = 3
+"""Replays in a row: in narrower ones a vehicle is cut off. Where there are more, rows are of about one length."""
 
 PANEL = Template('<section><h2>$name</h2><iframe title="$name" srcdoc="$page"></iframe></section>')
 
@@ -85,7 +90,11 @@ def save_side_by_side(
         PANEL.substitute(name=html.escape(name), page=html.escape(_page_of(name, replay)))
         for name, replay in replays.items()
     ]
-    write_whole(target, PAGE.substitute(title=html.escape(title), panels="\n".join(panels)))
+    columns = math.ceil(len(panels) / math.ceil(len(panels) / MOST_BESIDE))
+    share = (
+        f"{100.0 / (columns + 0.5):.1f}"  # of the width that a replay needs at least: one more does not fit
+    )
+    write_whole(target, PAGE.substitute(title=html.escape(title), share=share, panels="\n".join(panels)))
 
 
 def _page_of(name: str, replay: Replay | str | os.PathLike[str]) -> str:

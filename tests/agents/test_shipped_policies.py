@@ -58,3 +58,4 @@ def test_what_is_no_policy_is_answered_with_the_names() -> None:
     )
     with pytest.raises(InvalidInputError, match="hf://OWNER/NAME"):
         policy_path("nowhere")
+    assert_refused(run("fly", "--policy", ""), "'' holds no run, and no policy .*TrajectoryTracking")

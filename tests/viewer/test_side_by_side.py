@@ -45,6 +45,21 @@ def test_names_are_text_and_nothing_comes_from_outside(together: Path) -> None:
 
 
 @pytest.mark.browser
+@pytest.mark.parametrize("rows", [[2], [3], [2, 2], [3, 2]], ids=str)
+def test_at_most_three_are_in_a_row_and_rows_are_of_about_one_length(
+    rows: list[int], together: Path, tmp_path: Path
+) -> None:
+    page, count = tmp_path / "many.html", sum(rows)
+    save_side_by_side(page, {str(n): together.parent / "0.html" for n in range(count)})
+    tops = (
+        "[...document.querySelectorAll('section')].map((one) => Math.round(one.getBoundingClientRect().top))"
+    )
+    with open_page(page.as_uri(), ready=f"({tops}).length === {count}", width=1400, height=900) as shown:
+        found = shown.evaluate(tops)
+    assert [found.count(top) for top in sorted(set(found))] == rows
+
+
+@pytest.mark.browser
 def test_each_has_its_own_length(page: Page) -> None:
     assert page.evaluate(f"({FRAMES}).map((one) => one.duration)") == list(SECONDS.values())
 
