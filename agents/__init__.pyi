@@ -17,7 +17,7 @@ from dq_marine.agents.evaluation.evaluation import evaluate as evaluate
 from dq_marine.agents.evaluation.evaluation import score_table as score_table
 from dq_marine.agents.policies import load_policy as load_policy
 from dq_marine.agents.policies import trained_environment as trained_environment
-from dq_marine.agents.shipped_policies import shipped_policies as shipped_policies
+from dq_marine.agents.policy_names import shipped_policies as shipped_policies
 from dq_marine.agents.training.trained_policy import TrainedPolicy as TrainedPolicy
 from dq_marine.agents.training.training import begin_training as begin_training
 from dq_marine.agents.training.training import resume_training as resume_training

@@ -16,8 +16,8 @@ from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT
 from dq_marine.agents.evaluation.flight import FlightPlan, Outputs, episode_table, fly
 from dq_marine.agents.policies import load_policy
+from dq_marine.agents.policy_names import shipped_policies
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.agents.shipped_policies import shipped_policies
 from dq_marine.errors import InvalidInputError
 from dq_marine.viewer.live import display_present
 

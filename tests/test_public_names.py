@@ -2,6 +2,7 @@
 
 import ast
 import importlib
+import pkgutil
 import subprocess
 import sys
 from pathlib import Path
@@ -23,6 +24,15 @@ def test_every_public_name_resolves_to_what_its_module_defines(package):
     for name, source in names.items():
         assert getattr(module, name) is getattr(importlib.import_module(source), name)
         assert name in dir(module)
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_no_public_name_is_that_of_a_module_beside_it(package):
+    """Importing the module would put it in the place of the name."""
+    module = importlib.import_module(package)
+    assert not set(public_names(module.__file__)) & {
+        found.name for found in pkgutil.iter_modules(module.__path__)
+    }
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -13,9 +13,9 @@ from dq_marine.agents.deployment.address import SCHEME
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, scenario_settings
 from dq_marine.agents.keywords import with_changes
 from dq_marine.agents.policies import is_exported
+from dq_marine.agents.policy_names import policy_path
 from dq_marine.agents.preset_files import read_environment, read_settings, validate_settings
 from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
-from dq_marine.agents.shipped_policies import policy_path
 from dq_marine.checks import one_of
 from dq_marine.cli.keyword_values import read_keywords
 from dq_marine.envs.core.perturbations import PERTURBATIONS

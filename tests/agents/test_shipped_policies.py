@@ -12,9 +12,9 @@ from dq_marine.agents.deployment.model_card import CARD_FILE
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.evaluation import evaluate
 from dq_marine.agents.policies import load_policy, trained_environment
+from dq_marine.agents.policy_names import policy_path, shipped_policies
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import TrainingSettings
-from dq_marine.agents.shipped_policies import policy_path, shipped_policies
 from dq_marine.envs.core.registry import task_called
 from dq_marine.errors import InvalidInputError
 
