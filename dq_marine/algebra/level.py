@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
+from dq_marine.algebra.elementary import arctangent, sine_and_cosine
 from dq_marine.algebra.quaternion import Quaternion, rotate
 
 Level: TypeAlias = tuple[float, float]
@@ -36,7 +37,7 @@ def level_length(a: Level) -> float:
 
 def level_turned(a: Level, angle: float) -> Level:
     """Return a vector that is turned to starboard by an angle [rad]."""
-    c, s = math.cos(angle), math.sin(angle)
+    s, c = sine_and_cosine(angle)
     return (c * a[0] - s * a[1], s * a[0] + c * a[1])
 
 
@@ -54,4 +55,4 @@ def seen_at(course: Level, offset: Level) -> float:
         course: where the vessel heads, of any length.
         offset: from the vessel to the place [m].
     """
-    return math.atan2(level_cross(course, offset), level_dot(course, offset))
+    return arctangent(level_cross(course, offset), level_dot(course, offset))

@@ -8,6 +8,7 @@ condition may be asked by `some` and `every`, to leave out work that no body nee
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -32,6 +33,11 @@ def smallest_normal(like: float) -> float:
 def rounded(value: float) -> float:
     """Return the whole number next to a finite number, the even one of two."""
     return float(round(value))
+
+
+def power_of_two(exponent: float) -> float:
+    """Return 2^exponent, for a whole number such that the power is a normal number in its precision."""
+    return math.ldexp(1.0, int(exponent))
 
 
 def select(condition: bool, chosen: T, otherwise: T) -> T:

@@ -242,6 +242,36 @@ def _rounded(value: Any) -> Any:
     return lambda value: round_number(value)
 
 
+@intrinsic
+def raise_two(typing_context: Any, exponent: Any) -> Any:
+    """Two to the power of a whole number, or of that of each lane, written into the exponent of its bits.
+
+    Added to 1.5 times the power of two that has its last digit at 1, a whole number stands in the last bits.
+    """
+
+    def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
+        kind = values[0].type
+        count = kind.count if isinstance(kind, ir.VectorType) else 0
+        digits, bias, bits = (
+            (52, 1023, 64) if getattr(kind, "element", kind) == ir.DoubleType() else (23, 127, 32)
+        )
+        integer = ir.VectorType(ir.IntType(bits), count) if count else ir.IntType(bits)
+
+        def everywhere(of: Any, number: Any) -> Any:
+            return ir.Constant(of, [number] * count if count else number)
+
+        shifted = builder.fadd(values[0], everywhere(kind, 1.5 * 2.0**digits))
+        biased = builder.add(builder.bitcast(shifted, integer), everywhere(integer, bias))
+        return builder.bitcast(builder.shl(biased, everywhere(integer, digits)), kind)
+
+    return signature(exponent, exponent), generate
+
+
+@provide(selection.power_of_two)
+def _power_of_two(exponent: Any) -> Any:
+    return lambda exponent: raise_two(exponent)
+
+
 @provide(selection.select)
 def _select(condition: Any, chosen: Any, otherwise: Any) -> Any:
     if isinstance(condition, Lanes):

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, level_length, seen_at
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select
@@ -233,7 +234,11 @@ def merits(harbour: Harbour, box: Box, far: float, came: Berthing) -> Vector3:
         came: what has come of coming alongside.
     """
     turned, length = came.angle / box.angle, harbour.hull.half_length
-    return (math.exp(-came.distance / far), math.exp(-came.distance / length), math.exp(-turned * turned))
+    return (
+        exponential(-came.distance / far),
+        exponential(-came.distance / length),
+        exponential(-turned * turned),
+    )
 
 
 def berthing_seen(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.quaternion import Quaternion, rotate_inverse
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import Vector3, bounded_vector, scale
@@ -55,7 +55,7 @@ def peak(error: float, fine: float, far: float) -> float:
 
     A peak alone is not felt from afar, and a wide bell does not tell the last tenth from the one before.
     """
-    return 0.5 * (math.exp(-error / fine) + math.exp(-error / far))
+    return 0.5 * (exponential(-error / fine) + exponential(-error / far))
 
 
 def make_pick(count: int, first: int = 0) -> Callable[[float, Any], Any]:

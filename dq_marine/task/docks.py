@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from dq_marine.algebra.elementary import arctangent, exponential, sine_and_cosine
 from dq_marine.algebra.level import level_cross, level_dot
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select
@@ -80,7 +81,8 @@ def later(dock: Dock, period: float) -> Dock:
 
 def heave_of(dock: Dock) -> tuple[float, float, float]:
     """Return depth [m] of the throat, its velocity [m/s] and its acceleration [m/s^2] downwards."""
-    wave, slope = dock.heave * math.sin(dock.phase), dock.heave * math.cos(dock.phase)
+    sine, cosine = sine_and_cosine(dock.phase)
+    wave, slope = dock.heave * sine, dock.heave * cosine
     return dock.depth + wave, dock.rate * slope, -(dock.rate * dock.rate * wave)
 
 
@@ -104,7 +106,7 @@ def approach(dock: Dock, motion: Motion, to_bow: float) -> Approach:
     place = along_dock(dock, subtract(add(motion.position_ned, bow_ned), (0.0, 0.0, depth)))
     heading = along_dock(dock, bow_ned)
     velocity = along_dock(dock, subtract(velocity_ned, (0.0, 0.0, sinking)))
-    return Approach(place, velocity, math.atan2(across(heading), heading[0]))
+    return Approach(place, velocity, arctangent(across(heading), heading[0]))
 
 
 def merits(funnel: Funnel, limits: Limits, far: float, bow: Approach) -> Vector3:
@@ -122,7 +124,7 @@ def merits(funnel: Funnel, limits: Limits, far: float, bow: Approach) -> Vector3
     distance = norm(bow.place)
     wide = across(bow.place) / (funnel.throat + funnel.flare * distance)
     turned = bow.angle / limits.angle
-    return (math.exp(-distance / far), math.exp(-wide * wide), math.exp(-turned * turned))
+    return (exponential(-distance / far), exponential(-wide * wide), exponential(-turned * turned))
 
 
 def contact(funnel: Funnel, limits: Limits, ahead_before: float, bow: Approach) -> Contact:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.selection import select
 from dq_marine.task.common import effort
 from dq_marine.task.protocol import Situation
@@ -64,8 +64,8 @@ def flight_rewards(
         succeeded: whether the end is reached as it should be.
     """
     return FlightRewards(
-        weights.progress * max(-1.0, min(pace, 2.0 - pace)) * math.exp(-off),
-        weights.nearness * math.exp(-5.0 * off),
+        weights.progress * max(-1.0, min(pace, 2.0 - pace)) * exponential(-off),
+        weights.nearness * exponential(-5.0 * off),
         weights.finish * select(succeeded, 1.0, 0.0),
         -(weights.contact * select(now.metrics.clearance < 0.0, 1.0, 0.0)),
         effort(weights.effort, now),

@@ -7,9 +7,9 @@ With the phase phi = w t, position, velocity and acceleration are smooth in clos
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
+from dq_marine.algebra.elementary import sine_and_cosine
 from dq_marine.algebra.level import level_cross, level_dot, level_length
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, scale, subtract
 
@@ -33,7 +33,7 @@ class CurvePoint(NamedTuple):
 
 def curve_point(curve: Curve, phase: float) -> CurvePoint:
     """Return (1) and its derivatives at a phase [rad]; cosines and sines of the multiples by the addition theorem."""
-    c1, s1 = math.cos(phase), math.sin(phase)
+    s1, c1 = sine_and_cosine(phase)
     c2, s2 = c1 * c1 - s1 * s1, 2.0 * c1 * s1
     c3, s3 = c2 * c1 - s2 * s1, s2 * c1 + c2 * s1
     first = _harmonic(curve.cosines[0], curve.sines[0], c1, s1, 1.0)

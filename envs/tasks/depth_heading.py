@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import sine_and_cosine
 from dq_marine.algebra.level import seen_at
 from dq_marine.algebra.quaternion import rotate, rotate_inverse
 from dq_marine.algebra.selection import select, spread
@@ -159,9 +160,10 @@ def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Mot
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
     """Return what `observations` lists."""
     deeper, turn, faster = errors(memory.orders[0], measured)
+    sine, cosine = sine_and_cosine(turn)
     return (
         bounded(deeper, 4.0 * LOST * own.depth_step),
-        (math.cos(turn), math.sin(turn)),
+        (cosine, sine),
         bounded(faster, 2.0 * SPEED_BOUND),
         spread(memory.orders[0].speed, turn),
         bounded_vector(rotate_inverse(measured.attitude, (0.0, 0.0, 1.0)), 1.0),

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import exponential, sine_and_cosine
 from dq_marine.envs.kit import (
     VELOCITY,
     EpisodeContext,
@@ -136,7 +137,7 @@ def to_place(own: Parameters, motion: Motion) -> Vector3:
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
     """Return what `observations` lists."""
-    attitude, c, s = measured.attitude, math.cos(memory.heading), math.sin(memory.heading)
+    attitude, (s, c) = measured.attitude, sine_and_cosine(memory.heading)
     return (
         bounded_vector(rotate_inverse(attitude, to_place(own, measured)), own.watch_radius),
         rotate_inverse(attitude, (c, s, 0.0)),
@@ -163,7 +164,8 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
 def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
     """Return how far off place and heading are."""
     bow = rotate(motion.attitude, (1.0, 0.0, 0.0))
-    off = seen_at((math.cos(memory.heading), math.sin(memory.heading)), (bow[0], bow[1]))
+    s, c = sine_and_cosine(memory.heading)
+    off = seen_at((c, s), (bow[0], bow[1]))
     return Metrics(norm(to_place(own, motion)), abs(off))
 
 
@@ -171,8 +173,8 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
     away, off = now.metrics.position_error / BELL[0], now.metrics.heading_error / BELL[1]
     return Rewards(
-        position=weights.position * math.exp(-away * away),
-        heading=weights.heading * math.exp(-off * off),
+        position=weights.position * exponential(-away * away),
+        heading=weights.heading * exponential(-off * off),
         nearness=weights.nearness * (1.0 - now.metrics.position_error / own.watch_radius),
         effort=effort(weights.effort, now),
     )

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, level_length
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select
@@ -202,7 +203,7 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     pace = now.memory.gained / (own.speed * own.period)
     return Rewards(
         weights.progress * max(-1.0, min(1.0, pace)),
-        weights.route * math.exp(-(abs(now.memory.starboard) / (CLEAR * own.length))),
+        weights.route * exponential(-(abs(now.memory.starboard) / (CLEAR * own.length))),
         -(weights.clearance * near),
         -(weights.side * wrong),
         weights.finish * select(succeeded(own, now), 1.0, 0.0),

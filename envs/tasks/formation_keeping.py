@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.level import level_bow
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
@@ -208,8 +209,8 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
     off, near = now.metrics.slot_error, 2.0 * now.metrics.slot_error / own.tolerance
     return Rewards(
-        weights.nearness * math.exp(-off / own.spacing),
-        weights.closeness * math.exp(-near * near),
+        weights.nearness * exponential(-off / own.spacing),
+        weights.closeness * exponential(-near * near),
         weights.finish * select(succeeded(own, now), 1.0, 0.0),
         -(weights.collision * select(now.metrics.nearest_distance < own.safe, 1.0, 0.0)),
         effort(weights.effort, now),

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.quaternion import rotate, rotate_inverse
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import Vector3, bounded, bounded_vector, norm, scale, subtract
@@ -204,7 +205,7 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     length, clearance = 2.0 * own.hull.half_length, now.metrics.clearance
     return Rewards(
         weights.progress * now.memory.gained / length,
-        -(weights.room * math.exp(-2.0 * max(clearance, 0.0) / length)),
+        -(weights.room * exponential(-2.0 * max(clearance, 0.0) / length)),
         weights.arrival * select(succeeded(own, now), 1.0, 0.0),
         -(weights.collision * select(clearance < 0.0, 1.0, 0.0)),
         effort(weights.effort, now),

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import bounded, bounded_vector, scale
@@ -198,8 +199,8 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms: gym-auv's speed along the path times nearness (Meyer et al. 2020), with a peak beside it."""
     near, pace = now.metrics.cross_track_error / own.length, now.memory.speed / own.speed
     return Rewards(
-        weights.progress * max(-1.0, min(pace, 2.0 - pace)) * math.exp(-near),
-        weights.nearness * math.exp(-10.0 * near),
+        weights.progress * max(-1.0, min(pace, 2.0 - pace)) * exponential(-near),
+        weights.nearness * exponential(-10.0 * near),
         weights.finish * select(succeeded(own, now), 1.0, 0.0),
         effort(weights.effort, now),
     )

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from dq_marine.algebra.elementary import arctangent, exponential
 from dq_marine.envs.kit import (
     SLOW_START_DRAWS,
     VELOCITY,
@@ -200,7 +201,7 @@ def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
     error = subtract(own.position_ned, motion.position_ned)
     to_goal = quaternion_multiply(quaternion_conjugate(motion.attitude), own.attitude)
     axis = (to_goal[1], to_goal[2], to_goal[3])
-    angle = 2.0 * math.atan2(norm(axis), abs(to_goal[0]))
+    angle = 2.0 * arctangent(norm(axis), abs(to_goal[0]))
     return Metrics(norm(error), angle)
 
 
@@ -209,9 +210,9 @@ def reward(own: Parameters, weights: Weights, now: Situation) -> Rewards:
     distance, angle = now.metrics.position_error, now.metrics.attitude_error
     nearness = distance / weights.position_width
     return Rewards(
-        position=weights.position * math.exp(-nearness * nearness),
-        precision=weights.precision * math.exp(-distance / weights.precision_width),
-        attitude=weights.attitude * math.exp(-angle / weights.attitude_width),
+        position=weights.position * exponential(-nearness * nearness),
+        precision=weights.precision * exponential(-distance / weights.precision_width),
+        attitude=weights.attitude * exponential(-angle / weights.attitude_width),
         effort=effort(weights.effort, now),
     )
 

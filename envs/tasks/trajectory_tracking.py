@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.spatial import ZERO
 from dq_marine.algebra.vector3 import Vector3, add_scaled, bounded_vector, scale, subtract
@@ -201,9 +202,9 @@ def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
     nearness, turned = now.metrics.position_error / own.size, now.metrics.heading_error / 0.5
     return Rewards(
-        position=weights.position * math.exp(-nearness * nearness),
-        precision=weights.precision * math.exp(-nearness / POSITION),
-        heading=weights.heading * math.exp(-turned * turned),
+        position=weights.position * exponential(-nearness * nearness),
+        precision=weights.precision * exponential(-nearness / POSITION),
+        heading=weights.heading * exponential(-turned * turned),
         effort=effort(weights.effort, now),
     )
 

@@ -14,7 +14,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion
-from dq_marine.algebra.oscillation import sine_and_cosine
+from dq_marine.algebra.elementary import sine_and_cosine
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.spatial import Spatial

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import arctangent
 from dq_marine.algebra.level import (
     Level,
     from_above,
@@ -183,4 +184,4 @@ def sight(motion: Motion, place: Level, course: Level, ahead: float) -> Sight:
     along, across = level_dot(bow, course), level_cross(bow, course)
     steepness = across / max(along, LEAST_ALONG * level_length(course))
     starboard = level_cross(bow, off) + steepness * (ahead - level_dot(bow, off))
-    return Sight(starboard, math.atan2(across, along))
+    return Sight(starboard, arctangent(across, along))

@@ -17,7 +17,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.sines import sine_cosine
+from dq_marine.algebra.elementary import sine_and_cosine
 from dq_marine.algebra.vector3 import Vector3, add_scaled
 
 WAVE_DRAWS = 4
@@ -105,7 +105,7 @@ def make_seabed(waves: int) -> Seabed:
 def _make_relief(count: int, first: int) -> Callable[[Any, float, float], float]:
     def one(waves: Any, north: float, east: float) -> float:
         wave: Wave = waves[first]
-        return wave.amplitude * sine_cosine(wave.north * north + wave.east * east + wave.phase)[0]
+        return wave.amplitude * sine_and_cosine(wave.north * north + wave.east * east + wave.phase)[0]
 
     if first == count - 1:
         return one
@@ -124,7 +124,7 @@ def _make_relief_along(count: int, first: int) -> Callable[[Any, float, float, f
         wave: Wave = waves[first]
         phase = wave.north * north + wave.east * east + wave.phase
         rate = wave.north * way_north + wave.east * way_east
-        sine, cosine = sine_cosine(phase)
+        sine, cosine = sine_and_cosine(phase)
         return wave.amplitude * sine, wave.amplitude * rate * cosine
 
     if first == count - 1:

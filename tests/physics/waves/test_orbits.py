@@ -4,10 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from dq_marine.algebra.oscillation import decay, sine_and_cosine
+from dq_marine.algebra.elementary import sine_and_cosine
 from dq_marine.algebra.table import Table
 from dq_marine.backend.batched import batched
 from dq_marine.backend.packing import pack, unpack
@@ -27,11 +25,6 @@ def test_sines_are_those_of_numpy_in_any_engine():
     np.testing.assert_allclose(cosine, np.cos(angles), rtol=0.0, atol=2.3e-16)
     plain = np.array([sine_and_cosine(float(angle)) for angle in angles[::50]])
     assert np.array_equal(plain, np.stack([sine, cosine], axis=1)[::50])
-
-
-@given(st.floats(0.0, 1e3))
-def test_decay_is_the_exponential_until_nothing_is_left(exponent):
-    assert decay(exponent) == pytest.approx(math.exp(-min(exponent, 50.0)), rel=1e-11)
 
 
 def seas():

@@ -12,10 +12,10 @@ command. A step of the integrator evaluates these closed forms where it needs th
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import arctangent, exponential, sine_and_cosine
 from dq_marine.algebra.selection import select
 
 
@@ -79,8 +79,7 @@ def limited_target(channel: Channel, value: float, command: float) -> float:
 
 def turning_target(channel: Channel, value: float, command: float) -> float:
     """Return the angle nearest to the value that points where the command does: a thruster that turns all round."""
-    gap = command - value
-    return value + math.atan2(math.sin(gap), math.cos(gap))
+    return value + arctangent(*sine_and_cosine(command - value))
 
 
 def follow_at_once(dynamics: Any, value: float, target: float, elapsed: float) -> float:
@@ -90,7 +89,7 @@ def follow_at_once(dynamics: Any, value: float, target: float, elapsed: float) -
 
 def follow_with_lag(lag: Lag, value: float, target: float, elapsed: float) -> float:
     """Return the solution of (C1) without a largest rate."""
-    return target + (value - target) * math.exp(-elapsed / lag.time_constant)
+    return target + (value - target) * exponential(-elapsed / lag.time_constant)
 
 
 def follow_with_slew(slew: Slew, value: float, target: float, elapsed: float) -> float:
@@ -104,5 +103,5 @@ def follow_with_lagged_slew(dynamics: LaggedSlew, value: float, target: float, e
     gap = target - value
     size = abs(gap)
     sliding = min(elapsed, max(0.0, size / dynamics.rate - dynamics.time_constant))
-    left = (size - dynamics.rate * sliding) * math.exp((sliding - elapsed) / dynamics.time_constant)
+    left = (size - dynamics.rate * sliding) * exponential((sliding - elapsed) / dynamics.time_constant)
     return target - select(gap < 0.0, -left, left)

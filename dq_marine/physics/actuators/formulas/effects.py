@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import sine_and_cosine
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.spatial import Spatial, spatial_dot, spatial_scale, wrench_at
 from dq_marine.algebra.vector3 import Vector3
@@ -92,7 +92,8 @@ def thruster_in_flow_wrench(thruster: ThrusterInFlow, values: Any, twist: Spatia
 def azimuth_thruster_wrench(thruster: AzimuthThruster, values: Any, twist: Spatial) -> Spatial:
     """Return the wrench at a shaft speed values[0] and an angle values[1][0] from forward towards starboard [rad]."""
     thrust, angle = thrust_of(thruster.propeller, values[0]), values[1][0]
-    force = (thrust * math.cos(angle), thrust * math.sin(angle), 0.0)
+    sine, cosine = sine_and_cosine(angle)
+    force = (thrust * cosine, thrust * sine, 0.0)
     return wrench_at(thruster.position, force)
 
 

@@ -15,9 +15,9 @@ it holds astern, too, and as s is between 0 and 1 it only takes energy. The deri
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.selection import select
 
 
@@ -37,7 +37,7 @@ class Blend(NamedTuple):
 
 def blended_damping(blend: Blend, surge: float, velocity: float) -> float:
     """Return d(u, nu_i) of (B1)."""
-    decay = math.exp(-2.0 * abs(surge) / blend.crossover)
+    decay = exponential(-2.0 * abs(surge) / blend.crossover)
     at_rest = 2.0 * decay / (1.0 + decay)
     return at_rest * blend.linear + (1.0 - at_rest) * blend.quadratic * abs(velocity)
 
@@ -49,7 +49,7 @@ def blended_slope(blend: Blend, surge: float, velocity: float) -> float:
 
 def blended_turning(blend: Blend, surge: float, velocity: float) -> float:
     """Return the derivative of d(u, nu_i) nu_i by u, with nu_i held."""
-    decay = math.exp(-2.0 * abs(surge) / blend.crossover)
+    decay = exponential(-2.0 * abs(surge) / blend.crossover)
     steepness = 4.0 * decay / (blend.crossover * (1.0 + decay) * (1.0 + decay))
     change = steepness * (blend.quadratic * abs(velocity) - blend.linear) * velocity
     return select(surge < 0.0, -change, change)

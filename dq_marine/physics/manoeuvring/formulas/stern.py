@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import arctangent, sine_and_cosine
 from dq_marine.algebra.selection import select, smallest_normal
 from dq_marine.algebra.spatial import Spatial
 
@@ -106,10 +107,10 @@ def rudder_crossflow(own: ShipRudder, speed: float, beta: float, round_speed: fl
     return select(across < 0.0, own.straightening_negative, own.straightening_positive) * across
 
 
-def rudder_normal_force(own: ShipRudder, ahead: float, across: float, angle: float) -> float:
-    """Return F_N in a flow u_R, v_R: (P14), with the sine of the difference of two angles written out."""
+def rudder_normal_force(own: ShipRudder, ahead: float, across: float, sine: float, cosine: float) -> float:
+    """Return F_N in a flow u_R, v_R, of a rudder's angle of such sine and cosine: (P14), the difference written out."""
     size = math.sqrt(ahead * ahead + across * across)
-    return own.pressure * size * (ahead * math.sin(angle) - across * math.cos(angle))
+    return own.pressure * size * (ahead * sine - across * cosine)
 
 
 @functools.cache
@@ -125,16 +126,17 @@ def make_stern_wrench(inflow: Callable[[Any, float], float]) -> Callable[[Stern,
         revolutions, angle = values[0] / (2.0 * math.pi), values[1][0]
         u, v, round_speed = twist.linear[0], twist.linear[1], stern.length * twist.angular[2]
         speed = math.sqrt(u * u + v * v)
-        beta = math.atan2(-v, abs(u))  # (P6)
+        beta = arctangent(-v, abs(u))  # (P6)
         turn = round_speed / (speed + smallest_normal(speed))
         turn = max(-stern.turn, min(stern.turn, turn))
         advance = max(0.0, u) * inflow(propeller.wake, beta - propeller.position * turn)  # (P10)
         thrust = thrust_of_propeller(propeller, revolutions, advance)
         ahead = rudder_inflow(rudder, propeller, advance, thrust)
         across = rudder_crossflow(rudder, speed, beta, round_speed)
-        normal = rudder_normal_force(rudder, ahead, across, angle)
-        lateral = -normal * math.cos(angle)
-        drive, drag = propeller.share * thrust, -rudder.surge * normal * math.sin(angle)  # (P15)
+        sine, cosine = sine_and_cosine(angle)
+        normal = rudder_normal_force(rudder, ahead, across, sine, cosine)
+        lateral = -normal * cosine
+        drive, drag = propeller.share * thrust, -rudder.surge * normal * sine  # (P15)
         y = rudder.sway * lateral
         pitch = propeller.depth * drive + rudder.depth * drag
         return Spatial((-rudder.depth * y, pitch, rudder.yaw * lateral), (drive + drag, y, 0.0))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
+from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.selection import select
 
 
@@ -27,9 +27,9 @@ class GaussianWake(NamedTuple):
 def two_constants_inflow(wake: TwoConstantsWake, beta: float) -> float:
     """Return 1 - w_P at the drift angle beta_P of the propeller (Yasukawa and Yoshimura 2015, eq. 16): (P8)."""
     most = select(beta > 0.0, wake.most_positive, wake.most_negative)
-    return wake.straight * (1.0 + (1.0 - math.exp(-wake.growth * abs(beta))) * (most - 1.0))
+    return wake.straight * (1.0 + (1.0 - exponential(-wake.growth * abs(beta))) * (most - 1.0))
 
 
 def gaussian_inflow(wake: GaussianWake, beta: float) -> float:
     """Return 1 - w_P0 exp(-4 beta_P^2), with another number for the 4 if the file has one: (P9)."""
-    return 1.0 - wake.straight * math.exp(-wake.decay * beta * beta)
+    return 1.0 - wake.straight * exponential(-wake.decay * beta * beta)

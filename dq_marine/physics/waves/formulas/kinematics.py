@@ -18,8 +18,8 @@ from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_position
+from dq_marine.algebra.elementary import exponential, sine_and_cosine
 from dq_marine.algebra.matrix3 import Matrix3, transform
-from dq_marine.algebra.oscillation import decay, sine_and_cosine
 from dq_marine.algebra.quaternion import rotate, rotate_inverse
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.spatial import ZERO, Spatial, spatial_add_scaled
@@ -65,13 +65,13 @@ Orbit: TypeAlias = Callable[[WaveField, Vector3, float], WaterMotion]
 
 def deep_profile(wave_number: float, echo: float, depth: float) -> tuple[float, float]:
     """Return e^{-kz} twice."""
-    left = decay(wave_number * depth)
+    left = exponential(-(wave_number * depth))
     return left, left
 
 
 def bottom_profile(wave_number: float, echo: float, depth: float) -> tuple[float, float]:
     """Return cosh k(d - z)/sinh kd and sinh k(d - z)/sinh kd; below the bottom they are its own."""
-    direct = decay(wave_number * depth)
+    direct = exponential(-(wave_number * depth))
     reflected = min(echo / direct, direct)
     within = 1.0 / (1.0 - echo)
     return (direct + reflected) * within, (direct - reflected) * within

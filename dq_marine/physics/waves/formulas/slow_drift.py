@@ -14,7 +14,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_position
-from dq_marine.algebra.oscillation import sine_and_cosine
+from dq_marine.algebra.elementary import sine_and_cosine
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.table import Table

@@ -15,7 +15,7 @@ import math
 from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_position
-from dq_marine.algebra.oscillation import sine_and_cosine
+from dq_marine.algebra.elementary import sine_and_cosine
 from dq_marine.algebra.quaternion import Quaternion
 from dq_marine.algebra.selection import smallest_normal, spread
 from dq_marine.algebra.spatial import Spatial
