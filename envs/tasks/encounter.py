@@ -15,8 +15,7 @@ from dq_marine.checks import finite_number, whole_number
 from dq_marine.envs.core.observed import vessels_shown
 from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_sail
-from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task
-from dq_marine.integrator.body import Motion
+from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Motion, Observed, define_task
 from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.imazu import IMAZU_CASES
 from dq_marine.task.lookout import (

@@ -41,10 +41,7 @@ SLOWER = 0.75  # speed of the leader, over that of journeys: others have to catc
 LEAST_DEPTH, LEAST_SPACING, LEAST_TOLERANCE = 20.0, 3.0, 1.0  # [m]
 LEG, LEG_TIME = 3.0, 20.0  # of the leader's course: at least so long [spacings, s]
 START_OFFSET, START_TURN, START_DRAWS = 0.3, math.radians(20.0), 4  # from one's place [spacings, rad]
-TOLERANCE, SAFE = (
-    0.5,
-    1.5,
-)  # success: never farther from one's place; others that are nearer are hit [lengths]
+TOLERANCE, SAFE = 0.5, 1.5  # success: never farther from one's place; nearer others are hit [lengths]
 LOST, FAR = 5.0, 10.0  # episodes end beyond this distance from one's place; bound of what is shown [spacings]
 
 

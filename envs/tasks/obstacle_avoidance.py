@@ -13,8 +13,7 @@ from dq_marine.algebra.vector3 import Vector3, bounded, bounded_vector, norm, sc
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_travel
-from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Observed, define_task
-from dq_marine.integrator.body import Motion
+from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Motion, Observed, define_task
 from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import beams_seen, pillars_seen

@@ -201,8 +201,7 @@ def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
     error = subtract(own.position_ned, motion.position_ned)
     to_goal = quaternion_multiply(quaternion_conjugate(motion.attitude), own.attitude)
     axis = (to_goal[1], to_goal[2], to_goal[3])
-    angle = 2.0 * arctangent(norm(axis), abs(to_goal[0]))
-    return Metrics(norm(error), angle)
+    return Metrics(norm(error), 2.0 * arctangent(norm(axis), abs(to_goal[0])))
 
 
 def reward(own: Parameters, weights: Weights, now: Situation) -> Rewards:
