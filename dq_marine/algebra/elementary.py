@@ -1,4 +1,4 @@
-"""Sine, cosine, exponential and arctangent as plain arithmetic.
+"""Sine, cosine, exponential, logarithm and arctangent as plain arithmetic.
 
 `math.sin` and its likes are library calls, which lanes make one body at a time, and whose last bits differ between
 libraries. These have the same bits for one body, in lanes, and on every machine, and in lanes they are vector
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from dq_marine.algebra.selection import by_precision, power_of_two, rounded, select
+from dq_marine.algebra.selection import by_precision, exponent_of, power_of_two, rounded, select
 
 TWO_OVER_PI = 2.0 / math.pi
 
@@ -53,6 +53,17 @@ LOG_2, LOG_2_SINGLE = (6.93147180369123816490e-01, 1.90821492927058770002e-10), 
 
 EXPONENTS, EXPONENTS_SINGLE = (-708.0, 709.0), (-87.0, 88.0)
 """Within which e^x is a normal number."""
+
+LOGARITHM = (
+    6.666666666666735130e-01,
+    3.999999999940941908e-01,
+    2.857142874366239149e-01,
+    2.222219843214978396e-01,
+    1.818357216161805012e-01,
+    1.531383769920937332e-01,
+    1.479819860511658591e-01,
+)
+"""Minimax coefficients of (log((1 + s)/(1 - s)) - 2 s)/s^3 on |s| <= 0.1716: fdlibm's."""
 
 ABOVE = (
     -8.750608600031904122785e-01,
@@ -117,8 +128,28 @@ def exponential(x: float) -> float:
     return (1.0 - ((low - r * c / (2.0 - c)) - high)) * power_of_two(k)
 
 
+def logarithm(x: float) -> float:
+    """Return the natural logarithm of a positive normal number.
+
+    x = 2^k (1 + f) with 1 + f between sqrt(1/2) and sqrt(2), and log(1 + f) = f - f^2/2 + s (f^2/2 + R(s^2)), with
+    s = f/(2 + f) (fdlibm, e_log.c).
+    """
+    k = exponent_of(x)
+    mantissa = x * power_of_two(-k)
+    large = mantissa > math.sqrt(2.0)
+    k = select(large, k + 1.0, k)
+    f = select(large, 0.5 * mantissa, mantissa) - 1.0
+    s, half = f / (2.0 + f), 0.5 * f * f
+    z = s * s
+    c = LOGARITHM
+    r = z * (c[0] + z * (c[1] + z * (c[2] + z * (c[3] + z * (c[4] + z * (c[5] + z * c[6]))))))
+    high = k * by_precision(x, LOG_2[0], LOG_2_SINGLE[0])
+    low = k * by_precision(x, LOG_2[1], LOG_2_SINGLE[1])
+    return high - ((half - (s * (half + r) + low)) - f)
+
+
 def arctangent(y: float, x: float) -> float:
-    """Return the angle [rad], from -pi to pi, of the vector (x, y) of finite length; 0 for that of length 0.
+    """Return the angle [rad], above -pi and up to pi, of the vector (x, y) of finite length; 0 for that of length 0.
 
     The larger turns of a quadrant are taken back by an eighth or a quarter of a turn before the fraction is (Cephes,
     atan.c).

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from dq_marine.algebra.elementary import logarithm, sine_and_cosine
 from dq_marine.algebra.selection import smallest_normal
 
 
@@ -13,6 +14,6 @@ def normal_pair(first: float, second: float) -> tuple[float, float]:
     Box and Muller 1958, "A note on the generation of random normal deviates", Ann. Math. Stat. 29, 610.
     """
     # In single precision a uniform number may have been rounded to 1.
-    size = math.sqrt(-2.0 * math.log(max(1.0 - first, smallest_normal(first))))
-    angle = 2.0 * math.pi * second
-    return size * math.cos(angle), size * math.sin(angle)
+    size = math.sqrt(-2.0 * logarithm(max(1.0 - first, smallest_normal(first))))
+    sine, cosine = sine_and_cosine(2.0 * math.pi * second)
+    return size * cosine, size * sine

@@ -40,6 +40,11 @@ def power_of_two(exponent: float) -> float:
     return math.ldexp(1.0, int(exponent))
 
 
+def exponent_of(value: float) -> float:
+    """Return the whole number k for which 2^k <= value < 2^(k + 1), of a positive normal number."""
+    return float(math.frexp(value)[1] - 1)
+
+
 def select(condition: bool, chosen: T, otherwise: T) -> T:
     """Return `chosen` where the condition holds, else `otherwise`: numbers, or (nested) tuples of them alike."""
     return chosen if condition else otherwise

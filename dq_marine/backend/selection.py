@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from llvmlite import ir
 from numba import types
@@ -242,34 +242,76 @@ def _rounded(value: Any) -> Any:
     return lambda value: round_number(value)
 
 
+class Bits(NamedTuple):
+    """How a number, or one in every lane, is laid out: digits, the exponent's bias, and its type as an integer."""
+
+    digits: int
+    bias: int
+    kind: ir.Type
+    integer: ir.Type
+
+    def number(self, value: float) -> ir.Constant:
+        """Return a number, in every lane."""
+        return self._everywhere(self.kind, value)
+
+    def whole(self, value: int) -> ir.Constant:
+        """Return an integer, in every lane."""
+        return self._everywhere(self.integer, value)
+
+    def _everywhere(self, kind: ir.Type, value: float) -> ir.Constant:
+        return ir.Constant(kind, [value] * kind.count if isinstance(kind, ir.VectorType) else value)
+
+
+def bits_of(kind: ir.Type) -> Bits:
+    """Return the layout of a number's LLVM type."""
+    digits, bias, size = (
+        (52, 1023, 64) if getattr(kind, "element", kind) == ir.DoubleType() else (23, 127, 32)
+    )
+    integer = ir.IntType(size)
+    return Bits(digits, bias, kind, ir.VectorType(integer, kind.count) if hasattr(kind, "count") else integer)
+
+
 @intrinsic
 def raise_two(typing_context: Any, exponent: Any) -> Any:
     """Two to the power of a whole number, or of that of each lane, written into the exponent of its bits.
 
-    Added to 1.5 times the power of two that has its last digit at 1, a whole number stands in the last bits.
+    Added to 1.5 times the power of two whose last digit counts ones, a whole number stands in the last bits.
     """
 
     def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
-        kind = values[0].type
-        count = kind.count if isinstance(kind, ir.VectorType) else 0
-        digits, bias, bits = (
-            (52, 1023, 64) if getattr(kind, "element", kind) == ir.DoubleType() else (23, 127, 32)
-        )
-        integer = ir.VectorType(ir.IntType(bits), count) if count else ir.IntType(bits)
-
-        def everywhere(of: Any, number: Any) -> Any:
-            return ir.Constant(of, [number] * count if count else number)
-
-        shifted = builder.fadd(values[0], everywhere(kind, 1.5 * 2.0**digits))
-        biased = builder.add(builder.bitcast(shifted, integer), everywhere(integer, bias))
-        return builder.bitcast(builder.shl(biased, everywhere(integer, digits)), kind)
+        bits = bits_of(values[0].type)
+        shifted = builder.fadd(values[0], bits.number(1.5 * 2.0**bits.digits))
+        biased = builder.add(builder.bitcast(shifted, bits.integer), bits.whole(bits.bias))
+        return builder.bitcast(builder.shl(biased, bits.whole(bits.digits)), bits.kind)
 
     return signature(exponent, exponent), generate
+
+
+@intrinsic
+def read_exponent(typing_context: Any, value: Any) -> Any:
+    """The exponent of a positive number, or of that of each lane, out of its bits.
+
+    Written into the last bits of the power of two whose last digit counts ones, an integer is added to it.
+    """
+
+    def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
+        bits = bits_of(values[0].type)
+        biased = builder.lshr(builder.bitcast(values[0], bits.integer), bits.whole(bits.digits))
+        ones = 2.0**bits.digits
+        added = builder.or_(biased, builder.bitcast(bits.number(ones), bits.integer))
+        return builder.fsub(builder.bitcast(added, bits.kind), bits.number(ones + bits.bias))
+
+    return signature(value, value), generate
 
 
 @provide(selection.power_of_two)
 def _power_of_two(exponent: Any) -> Any:
     return lambda exponent: raise_two(exponent)
+
+
+@provide(selection.exponent_of)
+def _exponent_of(value: Any) -> Any:
+    return lambda value: read_exponent(value)
 
 
 @provide(selection.select)

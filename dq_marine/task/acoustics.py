@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.elementary import arctangent, sine_and_cosine
 from dq_marine.algebra.level import Level, level_cross, level_dot
 from dq_marine.algebra.normal import normal_pair
 from dq_marine.algebra.quaternion import rotate
@@ -203,11 +204,11 @@ def wandered(error: Level, deviation: float, kept: float, uniforms: tuple[float,
 def message_of(sender: Sender, drift: Level) -> Message:
     """Return what a sender says, whose navigation has an error [m]."""
     (x, y, z), (north, east, _) = sender
-    course = _to_step(math.atan2(east, north), COURSE_STEP)
+    sine, cosine = sine_and_cosine(_to_step(arctangent(east, north), COURSE_STEP))
     return Message(
         (_to_step(x + drift[0], LENGTH_STEP), _to_step(y + drift[1], LENGTH_STEP)),
         _to_step(z, LENGTH_STEP),
-        (math.cos(course), math.sin(course)),
+        (cosine, sine),
         _to_step(math.sqrt(north * north + east * east), SPEED_STEP),
     )
 

@@ -1,4 +1,4 @@
-"""Sine, cosine, exponential and arctangent by arithmetic: those of the library, with the same bits in any engine."""
+"""Elementary functions by arithmetic: those of the library, with the same bits in any engine."""
 
 import math
 
@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dq_marine.algebra.elementary import arctangent, exponential, sine_and_cosine
+from dq_marine.algebra.elementary import arctangent, exponential, logarithm, sine_and_cosine
 from dq_marine.backend.batched import batched
 
 
@@ -46,12 +46,25 @@ def test_beyond_its_range_the_exponential_stays_where_it_is(low, high):
     assert exponential(0.0) == 1.0
 
 
+@given(st.floats(2.3e-308, 1.7e308))
+def test_the_logarithm_is_that_of_the_library(x):
+    assert logarithm(x) == pytest.approx(math.log(x), rel=4e-16, abs=0.0)
+
+
+def test_the_logarithm_is_so_around_one_and_each_power_of_two():
+    for power in range(-40, 41):
+        for factor in (1.0 - 1e-3, 1.0 - 1e-12, 1.0, 1.0 + 1e-12, 1.0 + 1e-3, math.sqrt(2.0)):
+            x = 2.0**power * factor
+            assert logarithm(x) == pytest.approx(math.log(x), rel=4e-16, abs=0.0)
+
+
 SIDES = st.floats(-1e150, 1e150, allow_subnormal=False)
 
 
 @given(SIDES, SIDES)
 def test_the_arctangent_is_that_of_the_library(y, x):
-    expected = math.atan2(y, x) if (x, y) != (0.0, 0.0) else 0.0
+    """But that the two zeros are one."""
+    expected = math.atan2(y + 0.0, x + 0.0)
     assert arctangent(y, x) == pytest.approx(expected, rel=1e-15, abs=1e-300)
 
 
@@ -67,5 +80,6 @@ def test_compiled_they_have_the_bits_of_plain_python():
     rng = np.random.default_rng(0)
     x, y = rng.uniform(-700.0, 700.0, 400), rng.normal(size=400)
     assert batched(exponential)(x).tolist() == [exponential(v) for v in x.tolist()]
+    assert batched(logarithm)(np.abs(x)).tolist() == [logarithm(abs(v)) for v in x.tolist()]
     plain = [arctangent(b, a) for a, b in zip(x.tolist(), y.tolist(), strict=True)]
     assert batched(arctangent)(y, x).tolist() == plain

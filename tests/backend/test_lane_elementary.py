@@ -5,17 +5,18 @@ import pytest
 from hypothesis import given, settings
 from support.lane_numbers import by_rows, in_lanes, rows_of, same_bits
 
-from dq_marine.algebra.elementary import arctangent, exponential, sine_and_cosine
-from dq_marine.algebra.selection import power_of_two, rounded
+from dq_marine.algebra.elementary import arctangent, exponential, logarithm, sine_and_cosine
+from dq_marine.algebra.selection import exponent_of, power_of_two, rounded
 
 
 def elementary(a, b):
     """Functions of arithmetic alone, and the two steps that they are made with."""
-    turns = rounded(max(min(b, 90.0), -90.0))
-    return exponential(a), arctangent(a, b), *sine_and_cosine(a), turns, power_of_two(turns)
+    whole, positive = rounded(max(min(b, 90.0), -90.0)), max(abs(b), 1e-30)
+    steps = (whole, power_of_two(whole), exponent_of(positive))
+    return exponential(a), arctangent(a, b), *sine_and_cosine(a), logarithm(positive), *steps
 
 
-ELEMENTARY = 6
+ELEMENTARY = 8
 
 
 @settings(max_examples=300)
@@ -33,5 +34,5 @@ def test_elementary_functions_have_the_digits_of_single_precision(arithmetic, er
     found = in_lanes(elementary, rows, ELEMENTARY, "float32", arithmetic)
     expected = by_rows(elementary, rows, ELEMENTARY)
     np.testing.assert_allclose(found[:, :2], expected[:, :2], rtol=error)
-    np.testing.assert_allclose(found[:, 2:4], expected[:, 2:4], atol=error)
-    assert np.array_equal(found[:, 4:], expected[:, 4:])
+    np.testing.assert_allclose(found[:, 2:5], expected[:, 2:5], rtol=error, atol=error)
+    assert np.array_equal(found[:, 5:], expected[:, 5:])
