@@ -135,7 +135,7 @@ def logarithm(x: float) -> float:
     s = f/(2 + f) (fdlibm, e_log.c).
     """
     k = exponent_of(x)
-    mantissa = x * power_of_two(-k)
+    mantissa = 0.5 * (x * power_of_two(1.0 - k))  # 2^(1 - k) is a normal number for every x
     large = mantissa > math.sqrt(2.0)
     k = select(large, k + 1.0, k)
     f = select(large, 0.5 * mantissa, mantissa) - 1.0
