@@ -29,10 +29,15 @@ def test_elementary_functions_have_the_bits_of_a_single_number(rows):
 @settings(max_examples=300)
 @given(rows=rows_of(2, "float32", min_value=-80.0, max_value=80.0, allow_subnormal=False))
 def test_elementary_functions_have_the_digits_of_single_precision(arithmetic, error, rows):
-    """Fast arithmetic joins the two parts of a constant again, and so loses a digit of large arguments."""
+    """Fast arithmetic joins the two parts of a constant again, and so loses a digit of large arguments.
+
+    A quotient below the smallest normal number has fewer digits.
+    """
     rows = np.where(np.isfinite(rows), rows, np.float32(1.0))
     found = in_lanes(elementary, rows, ELEMENTARY, "float32", arithmetic)
     expected = by_rows(elementary, rows, ELEMENTARY)
-    np.testing.assert_allclose(found[:, :2], expected[:, :2], rtol=error)
+    np.testing.assert_allclose(
+        found[:, :2], expected[:, :2], rtol=error, atol=float(np.finfo(np.float32).tiny)
+    )
     np.testing.assert_allclose(found[:, 2:5], expected[:, 2:5], rtol=error, atol=error)
     assert np.array_equal(found[:, 5:], expected[:, 5:])
