@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from support.sweeps import sweep
 
 from dq_marine.viewer.transport.browser import CHROMIUM_VARIABLES
 
@@ -102,7 +103,7 @@ def test_the_script_fails_without_a_browser_in_ci_alone(tmp_path: Path) -> None:
     assert done.stderr == "dq-marine: there is no Chromium, and CI skips no test\n"
 
 
-@pytest.mark.parametrize("rights", ["root", "sudo without a password", "none"])
+@pytest.mark.parametrize("rights", sweep(["root", "sudo without a password", "none"], plain=["root"]))
 @pytest.mark.parametrize("works", [True, False], ids=["works", "fails"])
 def test_the_script_installs_where_it_may(rights: str, works: bool, tmp_path: Path) -> None:
     browser = tmp_path / "chromium"

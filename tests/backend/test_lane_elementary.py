@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from support.lane_numbers import by_rows, in_lanes, rows_of, same_bits
 
 from dq_marine.algebra.elementary import arctangent, exponential, logarithm, sine_and_cosine
@@ -19,14 +19,12 @@ def elementary(a, b):
 ELEMENTARY = 8
 
 
-@settings(max_examples=300)
 @given(rows=rows_of(2))
 def test_elementary_functions_have_the_bits_of_a_single_number(rows):
     assert same_bits(in_lanes(elementary, rows, ELEMENTARY), by_rows(elementary, rows, ELEMENTARY))
 
 
 @pytest.mark.parametrize(("arithmetic", "error"), [("strict", 1e-6), ("fast", 1e-5)])
-@settings(max_examples=300)
 @given(rows=rows_of(2, "float32", min_value=-80.0, max_value=80.0, allow_subnormal=False))
 def test_elementary_functions_have_the_digits_of_single_precision(arithmetic, error, rows):
     """Fast arithmetic joins the two parts of a constant again, and so loses a digit of large arguments.

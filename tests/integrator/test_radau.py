@@ -279,6 +279,7 @@ def test_drag_of_strips_and_couplings_is_damping_too():
     assert body.fallback_steps == 0
 
 
+@pytest.mark.sweep  # tests/algebra/test_purity.py has the plain case
 def test_plain_python_and_compiled_agree_bit_for_bit():
     """With weak damping and stiff, and across zeros of velocities."""
     rng = np.random.default_rng(0)

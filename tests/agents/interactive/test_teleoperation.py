@@ -99,6 +99,7 @@ def test_a_person_reaches_a_goal_by_the_keys(tmp_path: Path) -> None:
     assert trajectory.stat().st_size > 1000
 
 
+@pytest.mark.sweep  # tests/viewer/test_panel_page.py has the plain case
 def test_sliders_move_the_water_and_the_goal_and_tune_the_controller(tmp_path: Path) -> None:
     with flight("--panel", "--agent", "zero", "--current", "0.1", "--seed", "3") as (process, page):
         slide(page, "speed", np.log(20.0))
@@ -182,6 +183,7 @@ def take_hold(page: Page) -> tuple[float, float]:
     raise AssertionError("the vehicle was never under the mouse")
 
 
+@pytest.mark.sweep  # tests/viewer/test_pull.py has the plain case
 def test_the_vehicle_is_pulled_by_the_mouse_until_it_is_let_go_or_the_page_is_closed(tmp_path: Path) -> None:
     """What was pulled, and when, is in the trajectory."""
     trajectory = tmp_path / "flight.csv"

@@ -26,8 +26,8 @@ FLIGHTS = sorted(
 `tests/envs/core/test_registry.py` flies every task with every vehicle, one by one.
 """
 
-SOON_COMPILED = [one for one in DEFAULTS if one[0] == "Docking"]
-"""`tests/envs/vector` has the lanes of StationKeeping, and of a small task with its own instruments."""
+SOON_COMPILED = [one for one in DEFAULTS if one[0] == "StationKeeping"]
+"""Its lanes are compiled for `tests/envs/vector` already."""
 
 WITHOUT_SCENERY = ("DepthHeading", "DynamicPositioning", "StationKeeping")
 """Tasks with nothing around the vehicle but water."""
