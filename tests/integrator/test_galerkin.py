@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from support.bodies import PlainBody, make_body, random_damping, random_inertia, random_quaternion
 from support.fossen import errors, solve
@@ -107,13 +107,14 @@ def test_a_body_that_moves_along_its_spin_axis_keeps_its_velocity(stages):
 
 @settings(max_examples=15)
 @given(seed=st.integers(0, 2**32 - 1), decades=st.floats(0.0, 4.0))
+@example(seed=3824, decades=4.0)  # four times the step errs by 1e-7, twice the step by 5e-10: the order is 8
 def test_any_inertia_agrees_with_equations_written_apart(seed, decades):
     rng = np.random.default_rng(seed)
     m = random_inertia(rng, 10.0**decades)
     q, velocity = random_quaternion(rng), rng.normal(size=6) / 10.0 ** (0.5 * decades)
-    body = make_body(m, 0.02, scheme="galerkin", order=8, kind=PlainBody)
+    body = make_body(m, 0.005, scheme="galerkin", order=8, kind=PlainBody)
     body.reset(np.zeros(3), q, velocity)
-    body.step(FREE, 10)
+    body.step(FREE, 40)
     assert max(errors(body, solve(m, np.zeros(3), q, velocity, 0.2, rtol=3e-14))) < 1e-9
 
 
