@@ -5,6 +5,7 @@ Import functions by name, not through this module: what is compiled finds them b
 
 from __future__ import annotations
 
+from dq_marine.algebra.elementary import arctangent, exponential, logarithm, sine_and_cosine
 from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.level import seen_at
 from dq_marine.algebra.quaternion import (
@@ -77,6 +78,7 @@ __all__ = [
     "Vector3",
     "add",
     "add_scaled",
+    "arctangent",
     "beside",
     "bounded",
     "bounded_vector",
@@ -86,12 +88,14 @@ __all__ = [
     "define_task",
     "dot",
     "effort",
+    "exponential",
     "finite_array",
     "finite_number",
     "goal_along",
     "goal_place",
     "harmonics_seen",
     "level_course",
+    "logarithm",
     "make_pick",
     "make_spline",
     "make_walk",
@@ -112,6 +116,7 @@ __all__ = [
     "seen_at",
     "select",
     "shaped_curve",
+    "sine_and_cosine",
     "slow_start",
     "speed_ahead",
     "spread",

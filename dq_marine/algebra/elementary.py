@@ -46,7 +46,8 @@ EXPONENT = (
 )
 """Minimax coefficients of x coth(x/2) - 2 over x^2 on |x| <= ln(2)/2: fdlibm's."""
 
-LOG2_E = 1.0 / math.log(2.0)
+LOG2_E = 1.4426950408889634
+"""log2(e), as a number: a library's own logarithm may differ in the last bit."""
 
 LOG_2, LOG_2_SINGLE = (6.93147180369123816490e-01, 1.90821492927058770002e-10), (0.693359375, -2.12194440e-4)
 """ln 2 in two parts, of which the first has so few digits that its products with whole numbers are exact."""
@@ -141,8 +142,7 @@ def logarithm(x: float) -> float:
     f = select(large, 0.5 * mantissa, mantissa) - 1.0
     s, half = f / (2.0 + f), 0.5 * f * f
     z = s * s
-    c = LOGARITHM
-    r = z * (c[0] + z * (c[1] + z * (c[2] + z * (c[3] + z * (c[4] + z * (c[5] + z * c[6]))))))
+    r = z * (LOGARITHM[0] + z * polynomial6(LOGARITHM[1:], z))
     high = k * by_precision(x, LOG_2[0], LOG_2_SINGLE[0])
     low = k * by_precision(x, LOG_2[1], LOG_2_SINGLE[1])
     return high - ((half - (s * (half + r) + low)) - f)

@@ -242,6 +242,10 @@ def _rounded(value: Any) -> Any:
     return lambda value: round_number(value)
 
 
+DOUBLE, SINGLE = (52, 1023, 64), (23, 127, 32)
+"""Digits behind the point, bias of the exponent, and size in bits (IEEE 754)."""
+
+
 class Bits(NamedTuple):
     """How a number, or one in every lane, is laid out: digits, the exponent's bias, and its type as an integer."""
 
@@ -264,11 +268,11 @@ class Bits(NamedTuple):
 
 def bits_of(kind: ir.Type) -> Bits:
     """Return the layout of a number's LLVM type."""
-    digits, bias, size = (
-        (52, 1023, 64) if getattr(kind, "element", kind) == ir.DoubleType() else (23, 127, 32)
-    )
+    wide = isinstance(kind, ir.VectorType)
+    number = kind.element if wide else kind
+    digits, bias, size = DOUBLE if number == ir.DoubleType() else SINGLE
     integer = ir.IntType(size)
-    return Bits(digits, bias, kind, ir.VectorType(integer, kind.count) if hasattr(kind, "count") else integer)
+    return Bits(digits, bias, kind, ir.VectorType(integer, kind.count) if wide else integer)
 
 
 @intrinsic

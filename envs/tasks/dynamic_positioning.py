@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.elementary import exponential, sine_and_cosine
 from dq_marine.envs.kit import (
     VELOCITY,
     EpisodeContext,
@@ -21,6 +20,7 @@ from dq_marine.envs.kit import (
     bounded_vector,
     define_task,
     effort,
+    exponential,
     finite_number,
     norm,
     observed_velocity,
@@ -29,6 +29,7 @@ from dq_marine.envs.kit import (
     rotate_inverse,
     seen_at,
     select,
+    sine_and_cosine,
     subtract,
     unable_to_position,
 )

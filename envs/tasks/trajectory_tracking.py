@@ -35,7 +35,7 @@ POSITION, HEADING, HELD = 0.2, math.radians(10.0), 5.0  # success: within these 
 # Of vehicles that only steer: the same; radii of curves over that of their turns; heading of starts, off the course.
 STEERED, ROOM, START_TURN = (0.25, math.radians(20.0)), 6.0, math.radians(15.0)
 START_RADIUS, LOST, DEPTH = 1.0, 5.0, 10.0  # starts: from the point, depth; episodes end beyond `LOST` [m]
-AHEAD, INTEGRAL_BOUND = (1.0, 2.0), 20.0  # [s] the point's way is shown; of errors along each NED axis [m s]
+AHEAD, INTEGRAL_BOUND = (1.0, 2.0), 20.0  # how far ahead the way is shown [s]; of errors along NED axes [m s]
 USUAL, SHORTEST_PERIOD = 8.0, 0.1  # radius [lengths]; times grow with control periods from this on [s]
 
 

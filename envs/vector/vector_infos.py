@@ -95,8 +95,7 @@ class VectorInfos:
     ) -> dict[str, Any]:
         """Return what is told of some environments, with masks."""
         arrays, n, count = self._lanes.memory.arrays, self._lanes.n, len(self._names)
-        rows = (arrays.final_reports if final else arrays.reports)[:, :n]
-        rows = self._given(rows) if where is self._everywhere else only_there(rows, where)
+        rows = self._told((arrays.final_reports if final else arrays.reports)[:, :n], where)
         infos: dict[str, Any] = dict(zip(self._names, rows, strict=False))
         infos["is_success"] = rows[count] != 0.0
         infos["current_ned"] = rows[count + 1 :].T
@@ -104,7 +103,7 @@ class VectorInfos:
         infos["fallback_substeps"] = fallbacks
         if self._has_vehicles:
             flown = self._flown if final else arrays.vehicles[:n]
-            infos["vehicle"] = np.where(where, flown, 0.0).astype(np.int64)
+            infos["vehicle"] = self._told(flown, where).astype(np.int64)
         infos.update(dict.fromkeys(self._masks, self._given(where)))
         return infos
 
@@ -121,6 +120,9 @@ class VectorInfos:
             step = self._lanes.first.scene.step
             self.refusals[index] = integration_report(step, int(why), int(completed), *squares)
         return np.asarray(refused, np.bool_)
+
+    def _told(self, rows: NDArray[Any], where: Flags) -> NDArray[Any]:
+        return self._given(rows) if where is self._everywhere else only_there(rows, where)
 
     def _given(self, array: NDArray[Any]) -> NDArray[Any]:
         return array.copy() if self._envs.copy else array

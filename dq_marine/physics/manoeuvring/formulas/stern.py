@@ -108,7 +108,10 @@ def rudder_crossflow(own: ShipRudder, speed: float, beta: float, round_speed: fl
 
 
 def rudder_normal_force(own: ShipRudder, ahead: float, across: float, sine: float, cosine: float) -> float:
-    """Return F_N in a flow u_R, v_R, of a rudder's angle of such sine and cosine: (P14), the difference written out."""
+    """Return F_N in a flow u_R, v_R, for the sine and cosine of the rudder's angle.
+
+    This is (P14), with the sine of the difference of two angles written out.
+    """
     size = math.sqrt(ahead * ahead + across * across)
     return own.pressure * size * (ahead * sine - across * cosine)
 
