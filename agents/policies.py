@@ -8,6 +8,7 @@ from pathlib import Path
 
 from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.deployment.onnx_policy import ENDING, OnnxPolicy, policy_bytes
+from dq_marine.agents.policy_names import policy_path
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.agents.training.run_folder import MODEL_FILE, RunFolder
 from dq_marine.agents.training.snapshots import digests_of
@@ -43,13 +44,17 @@ def _place(policy: Path) -> tuple[str, ...]:
     return (*file.parent.parts[1:], file.stem)
 
 
-def trained_environment(policy: Path) -> EnvironmentSettings:
+def trained_environment(policy: str | Path) -> EnvironmentSettings:
     """Return the environment that a policy was trained in.
+
+    Args:
+        policy: name of one that comes with the package; or the path of an exported file or of a run's folder.
 
     Raises:
         InvalidInputError: there is no policy, or it is damaged.
         MissingDependencyError: the library that reads it is not installed.
     """
+    policy = policy_path(policy)
     if is_exported(policy):
         return OnnxPolicy(policy).description.environment
     return RunFolder(policy).read_plan().settings.environment
@@ -66,15 +71,19 @@ def policy_digest(policy: Path) -> str:
     return digests_of(RunFolder(policy).trained_snapshot)[MODEL_FILE][:16]
 
 
-def load_policy(policy: Path) -> Agent:
+def load_policy(policy: str | Path) -> Agent:
     """Return a policy as an agent.
 
     A run is unpickled, which runs whatever code it holds: load only runs that you trust. An exported file is data.
+
+    Args:
+        policy: name of one that comes with the package; or the path of an exported file or of a run's folder.
 
     Raises:
         InvalidInputError: there is no policy, or it is damaged.
         MissingDependencyError: the libraries that it needs are not installed.
     """
+    policy = policy_path(policy)
     if is_exported(policy):
         return OnnxPolicy(policy)
     from dq_marine.agents.training.trained_policy import TrainedPolicy  # here: it imports torch

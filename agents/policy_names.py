@@ -20,7 +20,7 @@ def shipped_policies() -> dict[str, Path]:
     return {path.stem: path for path in sorted(SHIPPED_FOLDER.glob(f"*/*{ENDING}"))}
 
 
-def policy_path(policy: str) -> Path:
+def policy_path(policy: str | Path) -> Path:
     """Return the path of a policy.
 
     Args:
@@ -29,6 +29,10 @@ def policy_path(policy: str) -> Path:
     Raises:
         InvalidInputError: it is a bare name of neither; what is wrong at a longer path is found when it is read.
     """
+    if isinstance(policy, Path):
+        return policy
+    if not isinstance(policy, str):
+        raise InvalidInputError(f"policy = {shown(policy)}; give a name or a path")
     shipped = shipped_policies()
     path = shipped.get(policy, Path(policy))
     if policy and (path.exists() or path.suffix or path.name != policy):

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 from support.command_line import assert_refused, run
 from support.sweeps import sweep
 
 from dq_marine.agents.deployment.model_card import CARD_FILE
+from dq_marine.agents.deployment.onnx_policy import OnnxPolicy
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.evaluation import evaluate
 from dq_marine.agents.policies import load_policy, trained_environment
@@ -49,6 +53,28 @@ def test_a_policy_is_flown_by_the_name_of_its_task() -> None:
     flown = run("evaluate", "--policy", "StationKeeping", "--agent", "zero", "--episodes", "1")
     assert flown.exit_code == 0, flown.output
     assert "StationKeeping" in flown.output
+
+
+def test_python_knows_the_names_and_paths_as_text_too() -> None:
+    path = shipped_policies()["StationKeeping"]
+    assert (
+        trained_environment("StationKeeping") == trained_environment(str(path)) == trained_environment(path)
+    )
+    assert isinstance(load_policy("StationKeeping"), OnnxPolicy)
+
+
+@pytest.mark.parametrize("load", [load_policy, trained_environment])
+def test_python_refuses_what_is_no_policy(load: Callable[[Any], Any], tmp_path: Path) -> None:
+    with pytest.raises(InvalidInputError, match=r"policy = 7; give a name or a path"):
+        load(7)
+    with pytest.raises(
+        InvalidInputError, match=r"'Stationkeeping' holds no run, and no policy .*StationKeeping"
+    ):
+        load("Stationkeeping")
+    with pytest.raises(InvalidInputError, match=r"absent\.onnx"):
+        load(str(tmp_path / "absent.onnx"))
+    with pytest.raises(InvalidInputError, match=f"{tmp_path.name}"):
+        load(tmp_path)
 
 
 def test_what_is_no_policy_is_answered_with_the_names() -> None:
