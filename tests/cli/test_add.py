@@ -1,5 +1,6 @@
 """Adding a task, a force, a sensor, a reward term or a vehicle: what command and page say is true, and works."""
 
+import os
 import re
 import subprocess
 import sys
@@ -113,8 +114,8 @@ def written(tmp_path):
     return tmp_path
 
 
-def completed(*command, folder):
-    return subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=1800)
+def completed(*command, folder, environment=None):
+    return subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment, timeout=1800)
 
 
 @pytest.mark.parametrize("program", sweep([FLIGHT, FLIGHT + LANES], plain=[FLIGHT]), ids=["alone", "lanes"])
@@ -127,10 +128,8 @@ def test_the_examples_of_the_page_fly_together(written, program):
 @pytest.mark.parametrize("name", ["force", "sensor", "reward", "vehicle"])
 def test_the_command_that_shows_the_result_works(written, name):
     """The one of the task flies an episode and is left to the flight above, which makes the same task."""
-    addition = ADDITIONS[name]
-    command = addition.result.replace("python -c", f"{sys.executable} -c")
-    command = command.replace("dq-marine", f"{sys.executable} -m dq_marine")
-    result = completed("/bin/sh", "-c", command, folder=written)
+    programs = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    result = completed("/bin/sh", "-c", ADDITIONS[name].result, folder=written, environment=programs)
     assert result.returncode == 0, result.stderr
     shown = {"force": "tether", "sensor": "altimeter_0", "reward": "reward/calm", "vehicle": "My vehicle"}
     assert shown[name] in result.stdout
