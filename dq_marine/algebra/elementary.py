@@ -151,8 +151,8 @@ def logarithm(x: float) -> float:
 def arctangent(y: float, x: float) -> float:
     """Return the angle [rad], above -pi and up to pi, of the vector (x, y) of finite length; 0 for that of length 0.
 
-    The larger turns of a quadrant are taken back by an eighth or a quarter of a turn before the fraction is (Cephes,
-    atan.c).
+    Angles within a quadrant beyond a sixteenth of a turn are reduced by an eighth, those beyond three sixteenths by a
+    quarter; the fraction approximates what is left (Cephes, atan.c).
     """
     across, along = abs(y), abs(x)
     steep = across > LARGE * along

@@ -30,7 +30,7 @@ REPORTED = (STATUS, COMPLETED, RESIDUAL_SQUARED, SPIN_SQUARED, SPEED_SQUARED)
 
 
 def only_there(rows: NDArray[Any], where: Flags) -> NDArray[Any]:
-    """Return the columns that are asked for, of a row or of many, and 0 in the others; for few, that is fast."""
+    """Return one row, or many, with 0 in the columns that are not asked for; this is fast where few are."""
     columns = np.flatnonzero(where)
     kept = np.zeros_like(rows)
     kept[..., columns] = rows[..., columns]

@@ -63,7 +63,7 @@ SIDES = st.floats(-1e150, 1e150, allow_subnormal=False)
 
 @given(SIDES, SIDES)
 def test_the_arctangent_is_that_of_the_library(y, x):
-    """But that the two zeros are one."""
+    """The two zeros count as one."""
     expected = math.atan2(y + 0.0, x + 0.0)
     assert arctangent(y, x) == pytest.approx(expected, rel=1e-15, abs=1e-300)
 

@@ -66,7 +66,7 @@ def test_a_chart_is_nowhere_steeper_than_it_says(seed, one, other):
 @given(seed=seeds, heading=st.floats(-math.pi, math.pi), tilt=st.floats(0.0, 0.6))
 @example(seed=0, heading=2.0, tilt=2.087572321298175e-09)  # from one patch's corner slowly into another patch
 def test_a_beam_ends_at_the_chart_and_never_passes_it(seed, heading, tilt):
-    """But for a beam that would leave a cell only beyond `FAR`: it counts as in it, and strays by its way across."""
+    """A beam that would leave its cell only after `FAR` counts as staying in it, and is off by what it crosses."""
     own, origin = chart(seed), (1.0, 14.0, 15.0)
     direction = (math.sin(tilt) * math.cos(heading), math.sin(tilt) * math.sin(heading), math.cos(tilt))
     found = CHART.cast(own, origin, direction, 40.0)
