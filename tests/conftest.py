@@ -1,13 +1,22 @@
-"""How the tests run: the compiler's memory is given back; `support` says what is left out and what is measured."""
+"""How the tests run: the compiler's memory is given back; `support` says what is left out and what is measured.
+
+Hypothesis draws the same cases in every run, so that a commit that is green stays green on another day. To look for
+cases that nobody has met, let it draw anew: `pytest --hypothesis-profile searching`.
+"""
 
 from __future__ import annotations
 
 import os
 from collections import Counter
 
+from hypothesis import settings
 from support.child_compilation import compile_in_children
 
 pytest_plugins = ("support.browser", "support.sweeps", "support.compilations")
+
+settings.register_profile("repeatable", derandomize=True)
+settings.register_profile("searching", derandomize=False, deadline=None)
+settings.load_profile("repeatable")
 
 
 def pytest_configure() -> None:
