@@ -21,6 +21,13 @@ from dq_marine.errors import UnsuitableVehicleWarning as UnsuitableVehicleWarnin
 from dq_marine.errors import VehicleFileError as VehicleFileError
 from dq_marine.physics.actuators.allocation import Allocation as Allocation
 from dq_marine.physics.actuators.allocation import ThrustAllocator as ThrustAllocator
+from dq_marine.physics.contact.shapes import Ball as Ball
+from dq_marine.physics.contact.shapes import Box as Box
+from dq_marine.physics.contact.shapes import Pillar as Pillar
+from dq_marine.physics.contact.shapes import Plane as Plane
+from dq_marine.physics.contact.shapes import Rod as Rod
+from dq_marine.physics.contact.shapes import SolidShape as SolidShape
+from dq_marine.physics.contact.solid import Solid as Solid
 from dq_marine.physics.current.build import CurrentProfile as CurrentProfile
 from dq_marine.physics.current.build import GaussMarkovCurrent as GaussMarkovCurrent
 from dq_marine.physics.term import ForceTerm as ForceTerm

@@ -40,12 +40,16 @@ class SolidChart:
         first: place of the first sample [m], in the axes of the mesh.
         spacing: between samples, along each axis [m].
         name: for messages.
+        triangles: of the mesh, for drawing, shape (n, 3, 3) [m].
+        file: that it is from.
     """
 
     distances: NDArray[np.float64]
     first: Vector3
     spacing: float
     name: str
+    triangles: NDArray[np.float64]
+    file: str
 
     @classmethod
     def from_stl(cls, file: str | os.PathLike[str], spacing: float) -> SolidChart:
@@ -77,12 +81,17 @@ class SolidChart:
         distances = distances_to(points, surface.corners)
         signed = np.where(inside, -distances, distances).reshape(counts)
         x, y, z = (float(part) for part in first)
-        return cls(signed, (x, y, z), spacing, path.name)
+        return cls(signed, (x, y, z), spacing, path.name, surface.corners, str(path))
 
     @functools.cached_property
     def grid(self) -> DistanceGrid:
         """Its numbers, as a task's parameters take them."""
         return DistanceGrid(self.first, self.spacing, Table(self.distances.ravel().tolist()))
+
+    @property
+    def numbers(self) -> DistanceGrid:
+        """The same, as a `dq_marine.Solid` asks for it."""
+        return self.grid
 
     @property
     def distance(self) -> Callable[[DistanceGrid, Vector3], float]:

@@ -92,7 +92,7 @@ def make_take(step: Step, fallback: Advance) -> Take:
         progress = solved(now.progress, fine, report, 1)
         lost = asked & negation(fine)
         if some(lost):
-            inertia, damping, forces, water, timing = parameters
+            inertia, damping, forces, water, timing, _ = parameters
             timed = StepParameters(inertia, damping, forces, water, timing.fallback)
             state = BodyState(pose, momentum, ())
             none = spread(0, momentum.linear[0])

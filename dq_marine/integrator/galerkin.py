@@ -74,7 +74,7 @@ def make_in_pieces(composition: Composition, order: int, strang: Composition) ->
     def in_pieces(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
     ) -> StepOutcome:
-        inertia, damping, forces, water, timing = parameters
+        inertia, damping, forces, water, timing, _ = parameters
         pieces = 2
         while pieces <= PIECES:
             h, moved = timing.h / pieces, state

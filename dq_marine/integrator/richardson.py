@@ -75,7 +75,7 @@ def make_richardson(composition: Composition) -> Advance:
     def richardson(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
     ) -> StepOutcome:
-        inertia, damping, forces, water, timing = parameters
+        inertia, damping, forces, water, timing, _ = parameters
         now = state
         progress = set_out(state)
         for step in range(steps):

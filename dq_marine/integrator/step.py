@@ -19,6 +19,7 @@ from dq_marine.algebra.spatial import ZERO, Spatial, spatial_add, spatial_subtra
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.actuation import NO_ACTUATION, Actuation
 from dq_marine.integrator.body import AT_REST, BodyState, Motion
+from dq_marine.integrator.contact import Contact, no_contact
 from dq_marine.integrator.drift import Drift
 from dq_marine.integrator.drift_report import DriftReport, drift_accepted, equation_met
 from dq_marine.integrator.fluid_memory import NO_MEMORY, FluidMemory
@@ -59,6 +60,7 @@ class Composition:
         actuation: the vehicle's actuators; their force is the first of its list. None, unless a scene has them.
         potentials: of the pose forces, if all forces of the scene have one and the method makes use of them.
         memory: that of the water.
+        contact: with what is solid.
     """
 
     method: Callable[[Composition], Advance]
@@ -71,6 +73,7 @@ class Composition:
     actuation: Actuation = NO_ACTUATION
     potentials: tuple[Potential, ...] = ()
     memory: FluidMemory = NO_MEMORY
+    contact: Contact = no_contact
 
     @property
     def at_rest(self) -> BodyState:
@@ -99,6 +102,7 @@ class StepParameters(NamedTuple):
             pairs (first, (second, (..., ()))).
         water: parameters of `Composition.water`.
         timing: what depends on the step size, as the method wants it.
+        contact: parameters of `Composition.contact`.
     """
 
     inertia: Inertia
@@ -106,11 +110,13 @@ class StepParameters(NamedTuple):
     forces: Any
     water: Any
     timing: Any
+    contact: Any = ()
 
 
 def in_water(parameters: StepParameters, water: Any) -> StepParameters:
     """Return the parameters in other water."""
-    return StepParameters(parameters.inertia, parameters.damping, parameters.forces, water, parameters.timing)
+    inertia, damping, forces, _, timing, contact = parameters
+    return StepParameters(inertia, damping, forces, water, timing, contact)
 
 
 class StepOutcome(NamedTuple):

@@ -23,7 +23,9 @@ from dq_marine.integrator.paper_drift import paper_drift, paper_fallback
 from dq_marine.integrator.richardson import RichardsonTiming, make_richardson
 from dq_marine.integrator.step import Advance, Composition, StepParameters
 from dq_marine.integrator.strang import StrangTiming, make_strang
+from dq_marine.integrator.touching import make_touching
 from dq_marine.physics.actuators.build import ActuationTerm
+from dq_marine.physics.contact.build import NOTHING_SOLID, ContactTerm
 from dq_marine.physics.damping.build import DampingTerm
 from dq_marine.physics.matrices import inertia_term
 from dq_marine.physics.radiation.build import MemoryTerm
@@ -87,6 +89,7 @@ class Assembly:
         order: one of `ORDERS`.
         actuators: those that drive the body, if any.
         memory: that of the water, if it has one; M is then its own.
+        contact: with what is solid.
     """
 
     mass_matrix: NDArray[np.float64]
@@ -97,6 +100,7 @@ class Assembly:
     order: int = 2
     actuators: ActuationTerm | None = None
     memory: MemoryTerm | None = None
+    contact: ContactTerm = NOTHING_SOLID
 
     def __post_init__(self) -> None:
         """Check the scheme and the order.
@@ -115,6 +119,11 @@ class Assembly:
                 f'scheme = {self.scheme!r} of order {self.order} knows no radiation memory; give scheme="midpoint" of '
                 'order 2 or 4, or radiation="constant"'
             )
+        if self.contact.name and (self.order != 2 or self._collocated):
+            raise InvalidInputError(
+                f"scheme = {self.scheme!r} of order {self.order} knows no contact, which is of low order; "
+                'give scheme="midpoint", order=2, or leave the solids out'
+            )
         if self.order > 4 and self.dissipation and not self._collocated:
             raise InvalidInputError(
                 f"order = {self.order}, but there is {self.dissipation}: orders above 4 take negative stages, which "
@@ -128,6 +137,7 @@ class Assembly:
             *(force.name for force in self._present(0.0)),
             *self.damping.names,
             self._memory_name,
+            self.contact.name,
             self.water.name,
         ]
         return tuple(filter(None, names))
@@ -138,6 +148,7 @@ class Assembly:
         names = [
             *self.damping.names,
             self._memory_name,
+            self.contact.name,
             *(force.name for force in self._velocity_forces(0.0)),
         ]
         return ", ".join(filter(None, names))
@@ -159,6 +170,7 @@ class Assembly:
             water=self.water.water,
             actuation=NO_ACTUATION if self.actuators is None else self.actuators.actuation,
             memory=NO_MEMORY if self.memory is None else self.memory.memory,
+            contact=self.contact.contact,
         )
 
     def parameters_at(self, step: float) -> StepParameters:
@@ -172,6 +184,7 @@ class Assembly:
             ),
             water=self.water.parameters,
             timing=self._timing(step),
+            contact=self.contact.parameters,
         )
 
     def _timing(self, step: float) -> Any:
@@ -220,7 +233,9 @@ class Assembly:
     def _method(self) -> Method:
         damping = self.damping
         if self.order == 2:
-            return Method(make_strang, damping.kick, self._strang_timing)
+            return Method(
+                make_touching if self.contact.name else make_strang, damping.kick, self._strang_timing
+            )
         if not self.dissipation:
             stages = STAGES[self.order]
             return Method(

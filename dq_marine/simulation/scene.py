@@ -14,6 +14,8 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.step import Composition, StepParameters
 from dq_marine.physics.abkowitz.build import whole_ship_terms
 from dq_marine.physics.actuators.build import actuation_term
+from dq_marine.physics.contact.build import contact_term
+from dq_marine.physics.contact.solid import Solid
 from dq_marine.physics.current.build import (
     Current,
     CurrentLike,
@@ -60,6 +62,7 @@ class Scene:
         hydrostatics: str = "linear",
         weather: Sequence[Any] = (),
         forces: Sequence[ForceTerm] = (),
+        solids: Sequence[Any] = (),
         actuation: str = "wrench",
         gravity: float | None = None,
         radiation: str = "constant",
@@ -83,6 +86,7 @@ class Scene:
                 any depth and attitude, so that it may capsize, dive or leave the water.
             weather: seas and winds, see `dq_marine.physics.weather`.
             forces: your own forces, see `dq_marine.ForceTerm`.
+            solids: what the hull cannot pass, see `dq_marine.Solid`; needs order 2 and no collocation.
             actuation: "wrench", a force and moment on the body; or "thrusters", the vehicle's thrusters, azimuths and
                 fins, with their limits and lags: see `OneBody.actuate`.
             gravity: g [m/s^2], which weight, buoyancy and the lengths of waves follow; None for the vehicle's own, 9.81
@@ -101,6 +105,7 @@ class Scene:
             current=finite_array("current", current, 3) if np.isscalar(current) else current,
             weather=weather,
             forces=forces,
+            solids=solids,
             actuation=actuation,
             hydrostatics=hydrostatics,
             scheme=scheme,
@@ -142,7 +147,15 @@ class Scene:
         actuators = actuation_term(self.vehicle) if self.actuation == "thrusters" else None
         water = self.current.term(self.vehicle)
         self._assembly = Assembly(
-            mass_matrix, present, damping, water, settings.scheme, settings.order, actuators, memory
+            mass_matrix,
+            present,
+            damping,
+            water,
+            settings.scheme,
+            settings.order,
+            actuators,
+            memory,
+            contact_term(self.vehicle, self.solids),
         )
         self._check_direction_of_time()
 
@@ -193,6 +206,11 @@ class Scene:
     def forces(self) -> tuple[ForceTerm, ...]:
         """The user's own."""
         return tuple(self.settings.forces)
+
+    @property
+    def solids(self) -> tuple[Solid, ...]:
+        """What the hull cannot pass."""
+        return tuple(self.settings.solids)
 
     @property
     def actuation(self) -> str:

@@ -19,6 +19,7 @@ from dq_marine.physics.weather.choice import plain_weather, weather_of
 from dq_marine.randomisation import Randomisation
 from dq_marine.randomisation.model import LARGEST_POOL
 from dq_marine.simulation.assembly import check_method
+from dq_marine.simulation.solids import plain_solids, solids_of
 from dq_marine.task.sensors.build import Sensors, plain_sensors, sensors_of
 from dq_marine.task.sensors.sensor import Sensor
 from dq_marine.vehicles import Vehicle, load_vehicle
@@ -48,6 +49,7 @@ class SettingsKeywords(TypedDict, total=False):
     current: float | CurrentLike | None
     weather: Sequence[Any]
     forces: Sequence[ForceTerm]
+    solids: Sequence[Any]
     gravity: float | None
     actuation: str
     hydrostatics: str
@@ -78,6 +80,8 @@ class Settings:
             episode. None: what the randomisation says, else 0.3 m/s.
         weather: seas and winds, as objects or dictionaries: see `dq_marine.physics.weather.weather_of`.
         forces: your own, see `dq_marine.ForceTerm`.
+        solids: what the hull cannot pass: seabed, walls, pillars, meshes, as objects or dictionaries: see
+            `dq_marine.simulation.solids.solids_of`.
         gravity: its acceleration [m/s^2]; None for what the vehicle's file says, 9.81 by default.
         actuation: "wrench", a force and a moment on the body; or "thrusters", the vehicle's thrusters, azimuths and
             fins, with their limits and lags.
@@ -113,6 +117,7 @@ class Settings:
     current: float | CurrentLike | None = (0.0, 0.0, 0.0)
     weather: Sequence[Any] = ()
     forces: Sequence[ForceTerm] = ()
+    solids: Sequence[Any] = ()
     gravity: float | None = None
     actuation: str = "wrench"
     hydrostatics: str = "linear"
@@ -139,6 +144,7 @@ class Settings:
             "current": current_of(self._given_current(randomisation)),
             "weather": weather_of(self.weather),
             "forces": checked_forces(self.forces),
+            "solids": solids_of(self.solids),
             "control_period": finite_number("control_period", self.control_period),
             "substeps": positive_integer("substeps", self.substeps),
             "sensors": sensors_of(self.sensors),
@@ -219,6 +225,7 @@ class Settings:
             "current": plain(self.water),
             "weather": plain_weather(self.weather),
             "forces": [],
+            "solids": plain_solids(self.solids),
             "sensors": plain_sensors(self.sensor_list),
             "randomise": None if randomise is None else randomise.model_dump(mode="json"),
         }

@@ -14,13 +14,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from dq_marine.algebra.distances import box_distance, plane_distance
 from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, level_length, seen_at
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import Vector3, norm
 from dq_marine.integrator.body import Motion
-from dq_marine.task.world.distances import box_distance, plane_distance
 from dq_marine.task.world.pillars import Hull
 
 FASTEST, SLOWEST, AT_LENGTH = 0.2, 0.1, 100.0

@@ -65,6 +65,18 @@ class Tube(NamedTuple):
     radius: float
 
 
+class Sphere(NamedTuple):
+    """A ball about its middle: radius [m]."""
+
+    radius: float
+
+
+class Faces(NamedTuple):
+    """A surface of triangles: corners of each, anticlockwise seen from outside [m]."""
+
+    triangles: tuple[tuple[Vector3, Vector3, Vector3], ...]
+
+
 class Relief(NamedTuple):
     """A seabed: depths [m] over a grid of places [m], row by row from the south and each from the west."""
 
@@ -73,7 +85,7 @@ class Relief(NamedTuple):
     depths: tuple[float, ...]
 
 
-Form = Column | ShipHull | TorpedoHull | Cone | Block | Line | Tube | Relief
+Form = Column | ShipHull | TorpedoHull | Cone | Block | Line | Tube | Sphere | Faces | Relief
 
 
 class Thing(NamedTuple):

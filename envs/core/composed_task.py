@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
@@ -38,6 +39,7 @@ from dq_marine.task.protocol import RewardTerm
 from dq_marine.task.sensors.build import nested_numbers, shown_numbers
 from dq_marine.task.sensors.observing import with_sensors
 from dq_marine.task.start import Drawn, make_beginning
+from dq_marine.task.things import Thing
 from dq_marine.vehicles import Vehicle
 
 SETTINGS = frozenset(one.name for one in fields(Settings))
@@ -143,6 +145,13 @@ class ComposedTask:
         """The waves of the scene's weather, under its gravity; None for a calm surface."""
         seas = [part.sea for part in self.scene.weather if isinstance(part, WaveLoads)]
         return seas[0].in_gravity(self.scene.vehicle.gravity) if seas else None
+
+    @functools.cached_property
+    def solid_things(self) -> tuple[Thing, ...]:
+        """The solids of the scene, as a viewer draws them."""
+        from dq_marine.viewer.solids import things_of  # here: what is not looked at is not drawn
+
+        return things_of(self.scene.solids, self.vehicle.dimensions.length)
 
     @property
     def wind_ned(self) -> NDArray[np.float64] | None:

@@ -327,7 +327,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
             wind_ned=self.wind_ned,
             goal_position_ned=None if goal is None else np.array(goal.position_ned),
             goal_quaternion_body_to_ned=None if goal is None else np.array(goal.attitude),
-            things=tuple(self.definition.scenery(parameters, memory)),
+            things=(*self.solid_things, *self.definition.scenery(parameters, memory)),
             beams=tuple(self.definition.beams(parameters, memory)),
             sea=self.sea,
             sea_start=episode.clock,

@@ -66,6 +66,11 @@ class MarineParallelEnv(ParallelEnv[str, Observation, Action]):
         if definition.meets is None:
             others = [one.id for one in registered_tasks() if one.meets is not None]
             raise InvalidInputError(f"task = {shown(task)} has no vessels that meet; give one of {others}")
+        if keywords.get("solids"):
+            raise InvalidInputError(
+                f"solids = {shown(keywords['solids'])}: each vessel's axes have an origin of their own, so that solids "
+                "would stand elsewhere for each; leave them out"
+            )
         if not 2 <= len(vehicles) <= MOST:
             raise InvalidInputError(f"vehicles has {len(vehicles)} entries; give 2 to {MOST}")
         self.max_cycles = (

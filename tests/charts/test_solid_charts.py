@@ -6,10 +6,10 @@ import pickle
 import numpy as np
 import pytest
 
+from dq_marine.algebra.distances import box_distance
 from dq_marine.charts.solid_chart import MOST_PAIRS, SolidChart
 from dq_marine.charts.triangles import distances_to
 from dq_marine.errors import InvalidInputError
-from dq_marine.task.world.distances import box_distance
 from dq_marine.task.world.rays import make_trace
 
 CENTER, HALF = (1.0, -2.0, 3.0), (2.0, 1.0, 0.5)

@@ -60,6 +60,7 @@ SCENE: dict[str, Callable[[Rng], Any]] = {
     "radiation": one_of("constant", "memory"),
     "weather": one_of([], [JONSWAP], [{"type": "wind", "speed": 5.0, "direction_from": 1.0}]),
     "forces": constant([]),
+    "solids": one_of([], [{"kind": "plane", "position_ned": [0.0, 0.0, 5.0]}]),
     "actuation": one_of("wrench", "thrusters"),
     "gravity": one_of(None, 9.81),
 }

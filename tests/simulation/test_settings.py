@@ -21,6 +21,7 @@ WRONG = {
     "current": ((1.0, 2.0), "current.*shape"),
     "weather": ("rain", "weather = 'rain'; give a list"),
     "forces": (3.0, "forces = 3.0; give a list"),
+    "solids": (3.0, "solids = 3.0; give a list"),
     "gravity": (-1.0, "gravity = -1"),
     "actuation": ("sails", "actuation = 'sails' is unknown; give one of"),
     "hydrostatics": ("wet", "hydrostatics = 'wet'"),

@@ -7,6 +7,7 @@ import numpy as np
 from dq_marine.algebra.spatial import from_fossen
 from dq_marine.backend.packing import pack, unpack
 from dq_marine.integrator.step import ACCEPTED, make_advance
+from dq_marine.physics.contact.build import NOTHING_SOLID
 from dq_marine.physics.current.build import uniform_water
 from dq_marine.physics.damping.build import BlendTerm, DampingTerm, StripTerm
 from dq_marine.physics.damping.formulas.blended import Blend
@@ -110,6 +111,7 @@ def make_body(
     order=2,
     l_stable=True,
     forces=(),
+    contact=NOTHING_SOLID,
     kind=OneBody,
 ):
     """A `OneBody` with any M, restoring, damping (Fossen's order), current and forces; or a `PlainBody`.
@@ -127,5 +129,6 @@ def make_body(
         current if isinstance(current, WaterTerm) else uniform_water(np.asarray(current, dtype=float)),
         scheme,
         order,
+        contact=contact,
     )
     return kind(assembly.composition, assembly.parameters_at, step)

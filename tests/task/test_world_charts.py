@@ -9,12 +9,12 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from dq_marine.algebra.distances import sphere_distance
 from dq_marine.backend.compilation import compile_function
 from dq_marine.backend.packing import make_load, pack, store, structure_type
 from dq_marine.backend.simd.lanes import lanes_of
 from dq_marine.backend.simd.rows import make_load_rows, store_rows
 from dq_marine.task.world.charts import FAR, charted, make_chart, make_grid_distance, sampled
-from dq_marine.task.world.distances import sphere_distance
 
 ROWS, COLUMNS, SPACING, SOUTH, WEST = 6, 5, 2.0, -3.0, 10.0
 CHART = make_chart(ROWS, COLUMNS)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from dq_marine.task.world.distances import (
+from dq_marine.algebra.distances import (
     box_distance,
     capsule_distance,
     line_distance,

@@ -10,7 +10,20 @@ from numpy.testing import assert_allclose
 from viewer.samples import ROV, snapshot, yawed
 
 from dq_marine.errors import InvalidInputError
-from dq_marine.task.things import Block, Column, Cone, Form, Line, Relief, ShipHull, Thing, TorpedoHull, Tube
+from dq_marine.task.things import (
+    Block,
+    Column,
+    Cone,
+    Faces,
+    Form,
+    Line,
+    Relief,
+    ShipHull,
+    Sphere,
+    Thing,
+    TorpedoHull,
+    Tube,
+)
 from dq_marine.viewer.meshes import Mesh, joined
 from dq_marine.viewer.models.thing_models import RIM, thing_model, tube
 from dq_marine.viewer.placement import HIDDEN_SCALE
@@ -29,6 +42,13 @@ FORMS = {
     "cone": Cone(0.4, 1.0, 2.0),
     "line": Line(BENT, 0.1),
     "tube": Tube(BENT, 0.3),
+    "sphere": Sphere(1.5),
+    "faces": Faces(
+        (
+            ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+            ((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+        )
+    ),
     "relief": HILLY,
 }
 PILLAR = Thing(FORMS["column"], (3.0, 4.0, 5.0))

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from dq_marine.algebra.distances import line_distance
 from dq_marine.algebra.elementary import arctangent
 from dq_marine.algebra.level import (
     Level,
@@ -22,7 +23,6 @@ from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import Vector3, add_scaled, subtract
 from dq_marine.integrator.body import Motion
 from dq_marine.task.world.beams import Cast, make_errors
-from dq_marine.task.world.distances import line_distance
 from dq_marine.task.world.keel import Keel
 from dq_marine.task.world.rays import ray_to_line
 

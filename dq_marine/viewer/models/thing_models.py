@@ -6,8 +6,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from dq_marine.task.things import Block, Column, Cone, Form, Line, Relief, ShipHull, TorpedoHull, Tube
-from dq_marine.viewer.meshes import Mesh, cuboid, cylinder, grid_triangles, revolved
+from dq_marine.task.things import (
+    Block,
+    Column,
+    Cone,
+    Faces,
+    Form,
+    Line,
+    Relief,
+    ShipHull,
+    Sphere,
+    TorpedoHull,
+    Tube,
+)
+from dq_marine.viewer.meshes import Mesh, cuboid, cylinder, grid_triangles, revolved, sphere
 from dq_marine.viewer.models.paint import SIGNAL_ORANGE
 from dq_marine.viewer.models.ship_model import HULL, ship_parts
 from dq_marine.viewer.models.torpedo_model import HULL as TORPEDO_HULL
@@ -61,6 +73,10 @@ def thing_model(form: Form) -> tuple[list[Painted], Look]:
             return [Painted(tube(np.array(form.points), form.radius), ROUTE)], FAINT
         case Tube():
             return [Painted(tube(np.array(form.points), form.radius), PIPE)], SOLID
+        case Sphere():
+            return [Painted(sphere(form.radius), GREY)], SOLID
+        case Faces():
+            return [Painted(_faces(form), RUST)], HOLLOW
         case Relief():
             return [Painted(_relief(form), SAND)], DULL
 
@@ -113,6 +129,14 @@ def tube(points: FloatArray, radius: float) -> Mesh:
     vertices = points[:, None, :] + radius * outward
     triangles = grid_triangles(len(points), TUBE_SECTORS + 1)
     return Mesh(vertices.reshape(-1, 3), outward.reshape(-1, 3), triangles)
+
+
+def _faces(form: Faces) -> Mesh:
+    corners = np.array(form.triangles).reshape(-1, 3, 3)
+    facing = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    facing /= np.maximum(np.linalg.norm(facing, axis=1, keepdims=True), 1e-300)
+    numbers = np.arange(3 * len(corners)).reshape(-1, 3)
+    return Mesh(corners.reshape(-1, 3), np.repeat(facing, 3, axis=0), numbers)
 
 
 def _relief(form: Relief) -> Mesh:

@@ -209,7 +209,11 @@ def floor_below(snapshots: Sequence[Snapshot], shape: Shape) -> float:
 
 def _bottom(snapshot: Snapshot) -> float:
     """The greatest depth of the seabeds in a snapshot [m], or 0."""
-    depths = [max(thing.form.depths) for thing in snapshot.things if isinstance(thing.form, Relief)]
+    depths = [
+        thing.position_ned[2] + max(thing.form.depths)
+        for thing in snapshot.things
+        if isinstance(thing.form, Relief)
+    ]
     return max(depths, default=0.0)
 
 

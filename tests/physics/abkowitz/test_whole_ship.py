@@ -144,6 +144,7 @@ def test_a_turn_goes_to_that_of_the_equations_integrated_by_scipy_with_the_squar
     assert errors[-1] < 2e-4 * LENGTH
 
 
+@pytest.mark.sweep
 def test_lanes_have_the_bits_of_single_ships():
     scene, rng, count = Scene(MARINER, step=0.1, actuation="thrusters"), np.random.default_rng(2), 9
     velocities = rng.normal(0.0, (5.0, 1.0, 0.1, 0.01, 0.01, 0.02), (count, 6))

@@ -114,7 +114,8 @@ def test_kicks_settle_exactly_where_wrench_and_drag_balance(kick, stiffness):
         assert np.allclose(drag, wrench, rtol=0, atol=1e-8)
 
 
-@pytest.mark.parametrize("name", sweep(CASES, plain=["couplings and strips"]))
+@pytest.mark.sweep
+@pytest.mark.parametrize("name", CASES)
 def test_lanes_have_the_bits_of_a_single_body(name):
     """Each with its own coefficients."""
     rng = np.random.default_rng(11)

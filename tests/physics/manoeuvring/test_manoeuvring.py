@@ -197,6 +197,7 @@ def test_the_order_is_kept():
     assert abs(observed_order(4.0 / counts, errors) - 2.0) < 0.05
 
 
+@pytest.mark.sweep
 def test_lanes_have_the_bits_of_single_ships():
     vehicle, rng, count = load_vehicle("kvlcc2_l7"), np.random.default_rng(2), 9
     velocities = rng.normal(0.0, (1.0, 0.3, 0.05, 0.05, 0.02, 0.2), (count, 6))

@@ -38,14 +38,14 @@ def velocity_actuators(parameters: StepParameters) -> Actuators:
 
 def with_pose_actuators(parameters: StepParameters, actuators: Actuators) -> StepParameters:
     """Return the parameters with others for the actuators: see `pose_actuators`."""
-    inertia, damping, forces, water, timing = parameters
-    return StepParameters(inertia, damping, ((actuators, forces[0][1]), forces[1]), water, timing)
+    inertia, damping, forces, water, timing, contact = parameters
+    return StepParameters(inertia, damping, ((actuators, forces[0][1]), forces[1]), water, timing, contact)
 
 
 def with_velocity_actuators(parameters: StepParameters, actuators: Actuators) -> StepParameters:
     """Return the parameters with others for the actuators: see `velocity_actuators`."""
-    inertia, damping, forces, water, timing = parameters
-    return StepParameters(inertia, damping, (forces[0], (actuators, forces[1][1])), water, timing)
+    inertia, damping, forces, water, timing, contact = parameters
+    return StepParameters(inertia, damping, (forces[0], (actuators, forces[1][1])), water, timing, contact)
 
 
 def actuators_reader(composition: Composition) -> Callable[[StepParameters], Actuators]:

@@ -1,0 +1,1 @@
+"""What is solid in the water, and how a hull that touches it is pushed back."""
