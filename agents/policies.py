@@ -48,7 +48,8 @@ def trained_environment(policy: str | Path) -> EnvironmentSettings:
     """Return the environment that a policy was trained in.
 
     Args:
-        policy: name of one that comes with the package; or the path of an exported file or of a run's folder.
+        policy: name of one that comes with the package; the path of an exported file or of a run's folder; or
+            hf://OWNER/NAME on the Hugging Face Hub.
 
     Raises:
         InvalidInputError: there is no policy, or it is damaged.
@@ -77,7 +78,8 @@ def load_policy(policy: str | Path) -> Agent:
     A run is unpickled, which runs whatever code it holds: load only runs that you trust. An exported file is data.
 
     Args:
-        policy: name of one that comes with the package; or the path of an exported file or of a run's folder.
+        policy: name of one that comes with the package; the path of an exported file or of a run's folder; or
+            hf://OWNER/NAME on the Hugging Face Hub.
 
     Raises:
         InvalidInputError: there is no policy, or it is damaged.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from dq_marine.agents.deployment.address import SCHEME
 from dq_marine.agents.deployment.onnx_policy import ENDING
 from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
@@ -21,18 +22,25 @@ def shipped_policies() -> dict[str, Path]:
 
 
 def policy_path(policy: str | Path) -> Path:
-    """Return the path of a policy.
+    """Return the path of a policy, downloaded if need be.
 
     Args:
-        policy: name of one that comes with the package; or the path of an exported file or of a run's folder.
+        policy: name of one that comes with the package; the path of an exported file or of a run's folder; or an
+            address on the Hugging Face Hub, hf://OWNER/NAME@REVISION, as text.
 
     Raises:
-        InvalidInputError: it is a bare name of neither; what is wrong at a longer path is found when it is read.
+        InvalidInputError: it is a bare name of none; an address is wrong, or the hub refuses. What is wrong at a longer
+            path is found when it is read.
+        MissingDependencyError: the hub's client is needed, and is not installed.
     """
     if isinstance(policy, Path):
         return policy
     if not isinstance(policy, str):
         raise InvalidInputError(f"policy = {shown(policy)}; give a name or a path")
+    if policy.startswith(SCHEME):
+        from dq_marine.agents.deployment.hub import fetched  # here: few need it
+
+        return fetched(policy)
     shipped = shipped_policies()
     path = shipped.get(policy, Path(policy))
     if policy and (path.exists() or path.suffix or path.name != policy):

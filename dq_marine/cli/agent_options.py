@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from dq_marine.agents.choice import common_environment
-from dq_marine.agents.deployment.address import SCHEME
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, scenario_settings
 from dq_marine.agents.keywords import with_changes
 from dq_marine.agents.policies import is_exported
@@ -101,10 +100,6 @@ def requested_policies(policies: Sequence[str]) -> list[Path]:
         InvalidInputError: there is none at a path, an address is wrong, or the hub refuses.
         MissingDependencyError: the hub's client is needed, and is not installed.
     """
-    if any(one.startswith(SCHEME) for one in policies):
-        from dq_marine.agents.deployment.hub import fetched  # here: few need it
-
-        return [fetched(one) if one.startswith(SCHEME) else policy_path(one) for one in policies]
     return [policy_path(one) for one in policies]
 
 

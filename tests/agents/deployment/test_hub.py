@@ -13,6 +13,8 @@ from support.command_line import assert_refused, run
 from support.fake_hub import FakeHub, served
 
 from dq_marine.agents.deployment.hub import fetched, share
+from dq_marine.agents.deployment.onnx_policy import OnnxPolicy
+from dq_marine.agents.policies import load_policy, trained_environment
 from dq_marine.errors import InvalidInputError, MissingDependencyError
 
 
@@ -48,6 +50,8 @@ def test_what_is_shared_is_what_is_flown(ppo, hub: FakeHub, tmp_path: Path) -> N
     assert fetched("hf://me/station").read_bytes() == ppo.onnx.read_bytes()
     hub.commit("me/station", {"policy.onnx": b"of a later commit"})
     assert fetched(f"hf://me/station@{first}").read_bytes() == ppo.onnx.read_bytes()
+    assert trained_environment(f"hf://me/station@{first}") == trained_environment(ppo.onnx)
+    assert isinstance(load_policy(f"hf://me/station@{first}"), OnnxPolicy)
     result = run("evaluate", "--policy", f"hf://me/station@{first}", "--episodes", "1")
     assert result.exit_code == 0, result.output
     assert "station" in result.stdout
