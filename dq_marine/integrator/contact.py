@@ -74,12 +74,14 @@ class Surface(NamedTuple):
         stiffness: k, of each sphere [N/m].
         damping: c, of each sphere [N s/m].
         friction: coefficient of Coulomb's friction.
+        deepest: depth from which on the spring pushes no harder [m].
     """
 
     solid: Any
     stiffness: float
     damping: float
     friction: float
+    deepest: float
 
 
 class ContactParameters(NamedTuple):
@@ -237,7 +239,7 @@ def push_back(
     velocity = (spatial_dot(along, twist), spatial_dot(side, twist), spatial_dot(across, twist))
     yields = _mobility(inertia, along, side, across)
     # Its push is share (k d - (c + h k) v), with v of the place along the normal after it.
-    spring = share * surface.stiffness * touch.depth
+    spring = share * surface.stiffness * min(touch.depth, surface.deepest)
     resistance = share * (surface.damping + h * surface.stiffness)
     held = _held(yields, velocity, spring, resistance)
     holds = (held[0] > 0.0) & (level_length((held[1], held[2])) <= surface.friction * held[0])

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 SWING = 20.0
 """Natural frequency of a vehicle on one place of contact, where a solid has no stiffness of its own [rad/s]."""
 
+LEAVING = 1.0
+"""Speed at which a critically damped surface pushes out what began deep in it, at most [m/s]."""
+
 
 class ContactTerm(NamedTuple):
     """What contact does.
@@ -66,4 +69,6 @@ def _surface(solid: Solid, mass: float) -> Surface:
     """Return how a solid pushes back a vehicle, whose mass is the largest of any direction, with that of the water."""
     stiffness = mass * SWING**2 if solid.stiffness is None else solid.stiffness
     damping = 2.0 * solid.damping_ratio * (stiffness * mass) ** 0.5
-    return Surface(solid.place, stiffness, damping, solid.friction)
+    # A spring k d and a damper 2 sqrt(k m) push out at (d/2) sqrt(k/m); what hits at twice that speed goes less deep.
+    deepest = 2.0 * LEAVING * (mass / stiffness) ** 0.5
+    return Surface(solid.place, stiffness, damping, solid.friction, deepest)

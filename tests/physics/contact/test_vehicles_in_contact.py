@@ -135,6 +135,17 @@ def test_contact_is_stable_whatever_stiffness_and_step(step, stiffness):
     assert body.kinetic_energy < 0.2 * energy
 
 
+def test_what_begins_deep_in_a_solid_is_pushed_out_slowly():
+    body = scene(Solid(Plane(), (0.0, 0.0, 1.0))).stepper()
+    body.reset((0.0, 0.0, 4.0), LEVEL)
+    speeds = []
+    for _ in range(400):
+        body.step()
+        speeds.append(np.linalg.norm(body.velocity_body[:3]))
+    assert body.position_ned[2] < 1.0
+    assert max(speeds) < 1.2
+
+
 def test_a_scene_without_solids_computes_nothing_of_them():
     assert "contact" not in scene().terms
     assert "contact" in scene(Solid(Plane())).terms
