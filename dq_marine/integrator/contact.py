@@ -58,12 +58,16 @@ Contact: TypeAlias = Callable[[WaterTwist], Touch]
 
 
 class HullSpheres(NamedTuple):
-    """Spheres by which a hull touches: places of their centres in the body frame, and radii [m]."""
+    """Spheres by which a hull touches: places of their centres in the body frame, and radii [m].
+
+    None of them reaches farther from the body origin than `reach` [m].
+    """
 
     x: Table
     y: Table
     z: Table
     radius: Table
+    reach: float
 
 
 class Surface(NamedTuple):
@@ -186,6 +190,20 @@ def make_touch_of(distance: Distance) -> Callable[..., Spatial]:
         return scale(1.0 / max(norm(gradient), smallest_normal(point[0])), gradient)
 
     def touch(
+        surface: Surface,
+        spheres: HullSpheres,
+        inertia: Inertia,
+        flow: Spatial,
+        h: float,
+        pose: DualQuaternion,
+        momentum: Spatial,
+    ) -> Spatial:
+        # A distance changes by no more than the point moves: away from the solid, one of them tells of all spheres.
+        if some(distance(surface.solid, pose_position(pose)) < spheres.reach):
+            momentum = sweep(surface, spheres, inertia, flow, h, pose, momentum)
+        return momentum
+
+    def sweep(
         surface: Surface,
         spheres: HullSpheres,
         inertia: Inertia,

@@ -14,11 +14,10 @@ from support.bodies import PlainBody, make_body, random_inertia, random_quaterni
 from dq_marine.algebra.dual_quaternion import pose_from_parts, pose_position
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.spatial import from_fossen, spatial_subtract, to_fossen
-from dq_marine.algebra.table import Table
 from dq_marine.algebra.vector3 import add, cross
-from dq_marine.integrator.contact import HullSpheres
 from dq_marine.integrator.inertia import momentum_from_twist, twist_from_momentum
 from dq_marine.physics.contact.build import contact_of
+from dq_marine.physics.contact.hull import spheres_about
 from dq_marine.physics.contact.shapes import Ball, Plane
 from dq_marine.physics.contact.solid import Solid
 from dq_marine.physics.matrices import inertia_term
@@ -28,14 +27,8 @@ decades = st.floats(-3.0, 9.0)
 STILL = from_fossen((0.0,) * 6)
 
 
-def spheres(*centers, radius=0.1):
-    """Spheres of one radius about some centres in the body frame."""
-    x, y, z = (Table(float(center[axis]) for center in centers) for axis in range(3))
-    return HullSpheres(x, y, z, Table(float(radius) for _ in centers))
-
-
-BALL = spheres((0.0, 0.0, 0.0))
-CORNERS = spheres(*((x, y, z) for x in (-1.0, 1.0) for y in (-0.5, 0.5) for z in (-0.3, 0.3)))
+BALL = spheres_about([(0.0, 0.0, 0.0)], 0.1)
+CORNERS = spheres_about([(x, y, z) for x in (-1.0, 1.0) for y in (-0.5, 0.5) for z in (-0.3, 0.3)], 0.1)
 
 
 def touched(matrix, hull, solids, pose, momentum, h, flow=STILL):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -39,8 +40,14 @@ def hull_spheres(vehicle: Vehicle) -> HullSpheres:
         easts = (radius - 0.5 * size.width, 0.5 * size.width - radius)
         count = min(max(2, math.ceil(size.length / size.width)), MOST_ALONG)
         centers = list(product(_spread(0.5 * size.length - radius, count), easts, downs))
+    return spheres_about(centers, radius)
+
+
+def spheres_about(centers: Sequence[Vector3], radius: float) -> HullSpheres:
+    """Return spheres of one radius [m] about places in the body frame [m]."""
     x, y, z = (Table(float(center[axis]) for center in centers) for axis in range(3))
-    return HullSpheres(x, y, z, Table(float(radius) for _ in centers))
+    reach = radius + max(math.hypot(*center) for center in centers)
+    return HullSpheres(x, y, z, Table(float(radius) for _ in centers), reach)
 
 
 def _along_axis(length: float, radius: float) -> list[Vector3]:

@@ -27,7 +27,7 @@ LARGEST = 1e5
 
 @runtime_checkable
 class SolidShape(Protocol):
-    """A shape that is known by its signed distance."""
+    """A shape that is known by its signed distance, which changes by no more than the point moves."""
 
     @property
     def distance(self) -> Distance:

@@ -62,19 +62,18 @@ def test_what_is_pressed_on_a_slope_slides_where_it_is_steeper_than_friction_hol
 
 @pytest.mark.sweep
 def test_one_that_is_let_go_in_a_narrow_place_ends_at_rest_and_inside():
-    """Walls, a ball, a pillar and a rod: whatever it hits, it loses speed and passes nothing."""
+    """Walls, a ball, a pillar and a rod: whatever it hits, it passes nothing, and is never faster than it began."""
     room = scene(*ROOM, current=CURRENT)
     rng = np.random.default_rng(5)
     for _ in range(3):
         body = room.stepper()
         body.reset((-1.5, 0.0, 0.0), LEVEL, (*rng.uniform(-2.0, 2.0, 3), *rng.uniform(-3.0, 3.0, 3)))
-        before = body.kinetic_energy
+        began = body.kinetic_energy
         for _ in range(200):
             body.step(steps=2)
             assert np.abs(body.position_ned).max() < 2.6
-            assert body.kinetic_energy < 1.05 * before + 0.5
-            before = max(body.kinetic_energy, 1e-3)
-        assert np.linalg.norm(body.velocity_body[:3]) < 0.3
+            assert body.kinetic_energy < began
+        assert np.linalg.norm(body.velocity_body[:3]) < 0.3  # it is left to the current and its own weight
 
 
 WALLS = [
