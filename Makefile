@@ -48,6 +48,7 @@ clean:  ## remove the virtual environment and what the commands wrote
 $(BIN)/python:
 	@echo "dq-marine: making a virtual environment in $(VENV)"
 	@$(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25" || true  # half the time of 23's; if need be that will do
 
 $(VENV)/.demo: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "dq-marine: installing the simulator and its viewer (about a minute)"

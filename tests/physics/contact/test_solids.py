@@ -45,9 +45,17 @@ def distance(solid, point):
 @given(st.lists(solids, max_size=4))
 def test_solids_are_the_same_again_from_text_and_numbers(made):
     assert solids_of(plain_solids(solids_of(made))) == tuple(made)
-    settings = Settings(solids=made)
-    assert Settings.from_json(settings.to_json()) == settings
-    assert pickle.loads(pickle.dumps(settings)) == settings
+    assert pickle.loads(pickle.dumps(made)) == made
+
+
+def test_settings_with_solids_are_the_same_again_from_json():
+    made = Settings(
+        solids=[
+            Plane((0.0, 1.0, -2.0)),
+            Solid(Rod((1.0, 2.0, 0.1), 0.3), (1.0, 2.0, 3.0), 0.7, 0.1, 1e4, 0.2),
+        ]
+    )
+    assert Settings.from_json(made.to_json()) == made
 
 
 @given(solids, places, places)
