@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 # Without --no-compile pip would compile every module of torch and its like, of which most are never imported: half a minute.
-INSTALL := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-version-check --constraint constraints.txt
+INSTALL := $(BIN)/python -m pip install --quiet --quiet --no-compile --disable-pip-version-check --constraint constraints.txt
 
 # Tests start hundreds of processes. What Python compiles for them is kept, beside the libraries and not in the tree, even
 # where a shell asks for none to be kept.

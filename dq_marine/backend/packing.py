@@ -8,6 +8,7 @@ forth, resolved while compiling into plain loads and stores.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,9 @@ from dq_marine.backend.table_type import TableType
 
 def flatten(structure: Any) -> Iterator[float]:
     """Yield the numbers of nested tuples, depth first."""
-    if isinstance(structure, tuple):
+    if isinstance(structure, Table):
+        yield from map(float, structure)
+    elif isinstance(structure, tuple):
         for part in structure:
             yield from flatten(part)
     else:
@@ -48,6 +51,8 @@ def rebuild(like: Any, components: Iterator[Any]) -> Any:
     """Return nested tuples shaped as `like`, of the given components, depth first."""
     if not isinstance(like, tuple):
         return next(components)
+    if isinstance(like, Table):  # of a sea, some thousands: all at once
+        return Table(islice(components, len(like)))
     parts = [rebuild(part, components) for part in like]
     return type(like)(*parts) if hasattr(like, "_fields") else type(like)(parts)
 
