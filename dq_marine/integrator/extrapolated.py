@@ -96,7 +96,12 @@ def make_extrapolated(composition: Composition) -> Advance:
     ) -> tuple[BodyState, Progress]:
         """Take a number of single steps."""
         timed = StepParameters(
-            parameters.inertia, parameters.damping, parameters.forces, parameters.water, timing
+            parameters.inertia,
+            parameters.damping,
+            parameters.forces,
+            parameters.water,
+            timing,
+            parameters.contact,
         )
         now = state
         for done in range(count):

@@ -92,8 +92,8 @@ def make_take(step: Step, fallback: Advance) -> Take:
         progress = solved(now.progress, fine, report, 1)
         lost = asked & negation(fine)
         if some(lost):
-            inertia, damping, forces, water, timing, _ = parameters
-            timed = StepParameters(inertia, damping, forces, water, timing.fallback)
+            inertia, damping, forces, water, timing, contact = parameters
+            timed = StepParameters(inertia, damping, forces, water, timing.fallback, contact)
             state = BodyState(pose, momentum, ())
             none = spread(0, momentum.linear[0])
             unmoved = StepOutcome(state, none, none, 0, none, report.solver.relative_residual_squared)

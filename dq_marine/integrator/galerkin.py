@@ -74,7 +74,7 @@ def make_in_pieces(composition: Composition, order: int, strang: Composition) ->
     def in_pieces(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
     ) -> StepOutcome:
-        inertia, damping, forces, water, timing, _ = parameters
+        inertia, damping, forces, water, timing, contact = parameters
         pieces = 2
         while pieces <= PIECES:
             h, moved = timing.h / pieces, state
@@ -89,7 +89,7 @@ def make_in_pieces(composition: Composition, order: int, strang: Composition) ->
             if fine:
                 return StepOutcome(moved, ACCEPTED, 1, iterations, 1, worst)
             pieces *= 2
-        timed = StepParameters(inertia, damping, forces, water, timing.piece)
+        timed = StepParameters(inertia, damping, forces, water, timing.piece, contact)
         return advance_strang(timed, state, wrench, time, PIECES)
 
     return in_pieces

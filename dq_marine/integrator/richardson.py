@@ -75,7 +75,7 @@ def make_richardson(composition: Composition) -> Advance:
     def richardson(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
     ) -> StepOutcome:
-        inertia, damping, forces, water, timing, _ = parameters
+        inertia, damping, forces, water, timing, contact = parameters
         now = state
         progress = set_out(state)
         for step in range(steps):
@@ -83,7 +83,7 @@ def make_richardson(composition: Composition) -> Advance:
             whole = halves = now
             for pieces in range(1, 3):
                 piece = timing.whole if pieces == 1 else timing.halves
-                timed = StepParameters(inertia, damping, forces, water, piece)
+                timed = StepParameters(inertia, damping, forces, water, piece, contact)
                 outcome = strang(timed, now, wrench, node, pieces)
                 progress = joined(progress, outcome)
                 whole, halves = halves, outcome.state

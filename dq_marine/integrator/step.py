@@ -110,7 +110,7 @@ class StepParameters(NamedTuple):
     forces: Any
     water: Any
     timing: Any
-    contact: Any = ()
+    contact: Any
 
 
 def in_water(parameters: StepParameters, water: Any) -> StepParameters:
