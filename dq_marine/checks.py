@@ -7,7 +7,7 @@ import math
 import numbers
 import operator
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -74,6 +74,27 @@ def one_of(name: str, value: Any, choices: Iterable[Any]) -> Any:
     if not isinstance(value, str | int) or value not in known:
         raise InvalidInputError(f"{name} = {shown(value)} is unknown; give one of {known}")
     return value
+
+
+def check_entries(what: str, given: Mapping[Any, Any], known: Iterable[str], needed: Iterable[str]) -> None:
+    """Check that a dictionary has entries that are known, and those that are needed.
+
+    Args:
+        what: it stands for, for the message.
+        given: the dictionary.
+        known: names of entries that it may have.
+        needed: of those that it must have.
+
+    Raises:
+        InvalidInputError: an entry is unknown, or one is lacking.
+    """
+    allowed = set(known)
+    wrong = sorted(shown(name) for name in given if name not in allowed)
+    lacking = sorted(set(needed) - given.keys())
+    if wrong or lacking:
+        told = [f"does not take {', '.join(wrong)}"] if wrong else []
+        told += [f"lacks {', '.join(lacking)}"] if lacking else []
+        raise InvalidInputError(f"{what} {' and '.join(told)}; it takes {', '.join(sorted(allowed))}")
 
 
 def finite_array(name: str, value: ArrayLike, size: int) -> NDArray[np.float64]:
@@ -246,6 +267,8 @@ def possible_path(name: str, path: str | os.PathLike[str]) -> Path:
     Raises:
         InvalidInputError: nothing can have such a path.
     """
+    if not isinstance(path, str | bytes | os.PathLike):
+        raise InvalidInputError(f"{name} = {shown(path)} is no path of a file; give one, as text")
     text = os.fspath(path)
     try:
         found = Path(os.fsdecode(text)).expanduser()

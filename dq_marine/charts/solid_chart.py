@@ -6,7 +6,6 @@ import functools
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,7 @@ from dq_marine.algebra.table import Table
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.charts.seabed_chart import MOST_SAMPLES
 from dq_marine.charts.triangles import distances_to
-from dq_marine.checks import finite_number
+from dq_marine.checks import finite_number, possible_path
 from dq_marine.errors import InvalidInputError
 from dq_marine.meshes.repair import closed_surface, winding_numbers
 from dq_marine.meshes.stl import read_stl
@@ -64,7 +63,7 @@ class SolidChart:
                 than the spacing, or there would be too many samples, or too many of them for its triangles.
         """
         spacing = finite_number("spacing", spacing, least=LEAST_SPACING, most=MOST_SPACING)
-        path = Path(os.fspath(file))
+        path = possible_path("file", file)
         surface, _ = closed_surface(read_stl(path), path.name)
         extent, low = surface.extent, surface.vertices.min(axis=0)
         if float(extent.min()) < spacing:

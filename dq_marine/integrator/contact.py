@@ -109,16 +109,20 @@ class Touching(NamedTuple):
     depth: float
 
 
-def no_contact(water_twist: WaterTwist) -> Touch:
-    """Return that there is nothing to touch."""
-    return untouched
+class FrozenBody(NamedTuple):
+    """A body while contact acts on it.
 
+    Attributes:
+        inertia: its M.
+        pose: body to NED, which does not change meanwhile.
+        flow: the water's twist at the pose, in the body frame.
+        h: how long contact acts [s].
+    """
 
-def untouched(
-    parameters: Any, water: Any, inertia: Inertia, h: float, pose: DualQuaternion, momentum: Spatial
-) -> Spatial:
-    """Return the momentum as it is."""
-    return momentum
+    inertia: Inertia
+    pose: DualQuaternion
+    flow: Spatial
+    h: float
 
 
 @functools.cache
@@ -136,48 +140,30 @@ def make_contact(distances: tuple[Distance, ...]) -> Contact:
             pose: DualQuaternion,
             momentum: Spatial,
         ) -> Spatial:
-            flow = water_twist(water, pose)
-            return touch_all(parameters.surfaces, parameters.spheres, inertia, flow, h, pose, momentum)
+            body = FrozenBody(inertia, pose, water_twist(water, pose), h)
+            return touch_all(parameters.surfaces, parameters.spheres, body, momentum)
 
         return touch
 
     return contact
 
 
-def _nothing_left(
-    surfaces: Any,
-    spheres: HullSpheres,
-    inertia: Inertia,
-    flow: Spatial,
-    h: float,
-    pose: DualQuaternion,
-    momentum: Spatial,
-) -> Spatial:
+def _nothing_left(surfaces: Any, spheres: HullSpheres, body: FrozenBody, momentum: Spatial) -> Spatial:
     return momentum
 
 
 def _link(first: Callable[..., Spatial], rest: Callable[..., Spatial]) -> Callable[..., Spatial]:
-    def touch_surfaces(
-        surfaces: Any,
-        spheres: HullSpheres,
-        inertia: Inertia,
-        flow: Spatial,
-        h: float,
-        pose: DualQuaternion,
-        momentum: Spatial,
-    ) -> Spatial:
-        touched = first(surfaces[0], spheres, inertia, flow, h, pose, momentum)
-        return rest(surfaces[1], spheres, inertia, flow, h, pose, touched)
+    def touch_surfaces(surfaces: Any, spheres: HullSpheres, body: FrozenBody, momentum: Spatial) -> Spatial:
+        return rest(surfaces[1], spheres, body, first(surfaces[0], spheres, body, momentum))
 
     return touch_surfaces
 
 
 @functools.cache
-def make_touch_of(distance: Distance) -> Callable[..., Spatial]:
-    """Return (surface, spheres, inertia, flow, h, pose, momentum) -> momentum after contact with one solid.
-
-    The flow is the water's twist at the pose, in the body frame.
-    """
+def make_touch_of(
+    distance: Distance,
+) -> Callable[[Surface, HullSpheres, FrozenBody, Spatial], Spatial]:
+    """Return (surface, spheres, body, momentum) -> momentum after contact with one solid."""
 
     def normal_at(solid: Any, point: Vector3) -> Vector3:
         """Return where the distance grows fastest, a unit vector: by central differences, as it may be sampled."""
@@ -189,35 +175,19 @@ def make_touch_of(distance: Distance) -> Callable[..., Spatial]:
         )
         return scale(1.0 / max(norm(gradient), smallest_normal(point[0])), gradient)
 
-    def touch(
-        surface: Surface,
-        spheres: HullSpheres,
-        inertia: Inertia,
-        flow: Spatial,
-        h: float,
-        pose: DualQuaternion,
-        momentum: Spatial,
-    ) -> Spatial:
+    def touch(surface: Surface, spheres: HullSpheres, body: FrozenBody, momentum: Spatial) -> Spatial:
         # A distance changes by no more than the point moves: away from the solid, one of them tells of all spheres.
-        if some(distance(surface.solid, pose_position(pose)) < spheres.reach):
-            momentum = sweep(surface, spheres, inertia, flow, h, pose, momentum)
+        if some(distance(surface.solid, pose_position(body.pose)) < spheres.reach):
+            momentum = sweep(surface, spheres, body, momentum)
         return momentum
 
-    def sweep(
-        surface: Surface,
-        spheres: HullSpheres,
-        inertia: Inertia,
-        flow: Spatial,
-        h: float,
-        pose: DualQuaternion,
-        momentum: Spatial,
-    ) -> Spatial:
-        attitude: Quaternion = pose.real
-        position, count = pose_position(pose), len(spheres.x)
-        share = h / (2 * SWEEPS)
+    def sweep(surface: Surface, spheres: HullSpheres, body: FrozenBody, momentum: Spatial) -> Spatial:
+        attitude: Quaternion = body.pose.real
+        position, count = pose_position(body.pose), len(spheres.x)
+        share = body.h / (2 * SWEEPS)
         for visit in range(2 * SWEEPS * count):
-            sweep, passed = visit // count, visit % count
-            number = passed if sweep % 2 == 0 else count - 1 - passed
+            sweep_number, passed = visit // count, visit % count
+            number = passed if sweep_number % 2 == 0 else count - 1 - passed
             center = (spheres.x[number], spheres.y[number], spheres.z[number])
             radius = spheres.radius[number]
             point = add(position, rotate(attitude, center))
@@ -225,7 +195,7 @@ def make_touch_of(distance: Distance) -> Callable[..., Spatial]:
             if some(depth > 0.0):
                 outward = rotate_inverse(attitude, normal_at(surface.solid, point))
                 where = Touching(add_scaled(center, -radius, outward), outward, depth)
-                pushed = push_back(surface, inertia, flow, h, share, where, momentum)
+                pushed = push_back(surface, body, share, where, momentum)
                 momentum = select(depth > 0.0, pushed, momentum)
         return momentum
 
@@ -233,32 +203,19 @@ def make_touch_of(distance: Distance) -> Callable[..., Spatial]:
 
 
 def push_back(
-    surface: Surface,
-    inertia: Inertia,
-    flow: Spatial,
-    h: float,
-    share: float,
-    touch: Touching,
-    momentum: Spatial,
+    surface: Surface, body: FrozenBody, share: float, touch: Touching, momentum: Spatial
 ) -> Spatial:
-    """Return the momentum after a share of the time h [s] of contact at one place of the hull.
+    """Return the momentum after contact at one place of the hull, during a share of its time [s].
 
-    Args:
-        surface: how it pushes back.
-        inertia: of the body.
-        flow: the water's twist there, in the body frame.
-        h: how far the spring looks ahead [s].
-        share: for how long it pushes [s].
-        touch: where.
-        momentum: relative to the water.
+    The spring looks ahead to the end of the whole time.
     """
     along, side, across = contact_wrenches(touch)
-    twist = spatial_add(twist_from_momentum(inertia, momentum), flow)
+    twist = spatial_add(twist_from_momentum(body.inertia, momentum), body.flow)
     velocity = (spatial_dot(along, twist), spatial_dot(side, twist), spatial_dot(across, twist))
-    yields = _mobility(inertia, along, side, across)
+    yields = _mobility(body.inertia, along, side, across)
     # Its push is share (k d - (c + h k) v), with v of the place along the normal after it.
     spring = share * surface.stiffness * min(touch.depth, surface.deepest)
-    resistance = share * (surface.damping + h * surface.stiffness)
+    resistance = share * (surface.damping + body.h * surface.stiffness)
     held = _held(yields, velocity, spring, resistance)
     holds = (held[0] > 0.0) & (level_length((held[1], held[2])) <= surface.friction * held[0])
     push = select(holds, held, _sliding(yields, velocity, spring, resistance, surface.friction))
@@ -291,17 +248,8 @@ def _mobility(inertia: Inertia, a: Spatial, b: Spatial, c: Spatial) -> Matrix3:
 
 def _held(yields: Matrix3, velocity: Vector3, spring: float, resistance: float) -> Vector3:
     """Return the impulse with which a place stops along the surface, under the push that then follows."""
-    system = (
-        1.0 + resistance * yields[0],
-        resistance * yields[1],
-        resistance * yields[2],
-        yields[3],
-        yields[4],
-        yields[5],
-        yields[6],
-        yields[7],
-        yields[8],
-    )
+    pushing, side, across = yields[:3], yields[3:6], yields[6:]
+    system = (1.0 + resistance * pushing[0], resistance * pushing[1], resistance * pushing[2], *side, *across)
     wanted = (spring - resistance * velocity[0], -velocity[1], -velocity[2])
     size = determinant(system)
     return scale(1.0 / max(size, smallest_normal(size)), transform(adjugate(system), wanted))

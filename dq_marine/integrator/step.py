@@ -19,7 +19,7 @@ from dq_marine.algebra.spatial import ZERO, Spatial, spatial_add, spatial_subtra
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.actuation import NO_ACTUATION, Actuation
 from dq_marine.integrator.body import AT_REST, BodyState, Motion
-from dq_marine.integrator.contact import Contact, no_contact
+from dq_marine.integrator.contact import Contact
 from dq_marine.integrator.drift import Drift
 from dq_marine.integrator.drift_report import DriftReport, drift_accepted, equation_met
 from dq_marine.integrator.fluid_memory import NO_MEMORY, FluidMemory
@@ -60,7 +60,7 @@ class Composition:
         actuation: the vehicle's actuators; their force is the first of its list. None, unless a scene has them.
         potentials: of the pose forces, if all forces of the scene have one and the method makes use of them.
         memory: that of the water.
-        contact: with what is solid.
+        contact: with what is solid, if there is anything.
     """
 
     method: Callable[[Composition], Advance]
@@ -73,7 +73,7 @@ class Composition:
     actuation: Actuation = NO_ACTUATION
     potentials: tuple[Potential, ...] = ()
     memory: FluidMemory = NO_MEMORY
-    contact: Contact = no_contact
+    contact: Contact | None = None
 
     @property
     def at_rest(self) -> BodyState:

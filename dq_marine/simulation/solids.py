@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, fields
 from typing import Any
 
-from dq_marine.checks import finite_number, one_of, shown
+from dq_marine.checks import check_entries, one_of, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.contact.shapes import SHAPES, SolidShape
 from dq_marine.physics.contact.solid import Solid
@@ -65,34 +65,29 @@ def _from_dictionary(given: dict[str, Any]) -> Solid:
     kind = one_of("kind of a solid", given.pop("kind", None), (*SHAPES, MESH))
     of_solid = {name: given.pop(name) for name in OF_SOLIDS if name in given}
     if kind == MESH:
-        _check_names(kind, given, set(MESH_ENTRIES), set(MESH_ENTRIES))
-        from dq_marine.charts.solid_chart import SolidChart  # here: it imports what reads and mends meshes
+        known = needed = list(MESH_ENTRIES)
+    else:
+        own = fields(SHAPES[kind])
+        known = [one.name for one in own]
+        needed = [one.name for one in own if one.default is MISSING]
+    check_entries(f"solids: a {kind}", {**of_solid, **given}, (*known, *OF_SOLIDS), needed)
+    return Solid(_mesh(**given) if kind == MESH else SHAPES[kind](**given), **of_solid)
 
-        spacing = finite_number("spacing", given["spacing"], above=0.0)
-        return Solid(SolidChart.from_stl(given["file"], spacing), **of_solid)
-    own = fields(SHAPES[kind])  # type: ignore[arg-type]
-    _check_names(kind, given, {one.name for one in own}, {one.name for one in own if one.default is MISSING})
-    return Solid(SHAPES[kind](**given), **of_solid)
 
+def _mesh(file: Any, spacing: Any) -> SolidShape:
+    from dq_marine.charts.solid_chart import SolidChart  # here: it imports what reads and mends meshes
 
-def _check_names(kind: str, given: Mapping[str, Any], known: set[str], needed: set[str]) -> None:
-    wrong = sorted(shown(name) for name in given if name not in known)
-    lacking = sorted(needed - given.keys())
-    if wrong or lacking:
-        told = [f"does not take {', '.join(wrong)}"] if wrong else []
-        told += [f"lacks {', '.join(lacking)}"] if lacking else []
-        takes = ", ".join(sorted({*known, *OF_SOLIDS}))
-        raise InvalidInputError(f"solids: a {kind} {' and '.join(told)}; it takes {takes}")
+    return SolidChart.from_stl(file, spacing)
 
 
 def _plain(solid: Solid) -> dict[str, Any]:
-    of_solid = {name: getattr(solid, name) for name in OF_SOLIDS}
-    of_solid["position_ned"] = list(solid.position_ned)
+    from dq_marine.charts.solid_chart import SolidChart  # here: as above
+
+    shape = solid.shape
+    of_solid = {name: getattr(solid, name) for name in OF_SOLIDS} | {"position_ned": list(solid.position_ned)}
+    if isinstance(shape, SolidChart):
+        return {"kind": MESH, "file": shape.file, "spacing": shape.spacing, **of_solid}
     for kind, make in SHAPES.items():
-        if type(solid.shape) is make:
-            own = {one.name: getattr(solid.shape, one.name) for one in fields(make)}  # type: ignore[arg-type]
-            return {"kind": kind, **own, **of_solid}
-    file = getattr(solid.shape, "file", None)
-    if file is None:
-        raise InvalidInputError(f"solids has {shown(solid.shape)}, which has no JSON; give it in Python")
-    return {"kind": MESH, "file": file, "spacing": getattr(solid.shape, "spacing", None), **of_solid}
+        if type(shape) is make:
+            return {"kind": kind, **{one.name: getattr(shape, one.name) for one in fields(make)}, **of_solid}
+    raise InvalidInputError(f"solids has {shown(shape)}, which has no JSON; give it in Python")

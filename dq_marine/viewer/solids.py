@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from dq_marine.algebra.euler import quaternion_from_euler
 from dq_marine.algebra.quaternion import quaternion_multiply, rotate
 from dq_marine.algebra.vector3 import Vector3, add_scaled
@@ -13,6 +11,7 @@ from dq_marine.physics.contact.shapes import Ball, Box, Pillar, Plane, Rod
 from dq_marine.physics.contact.solid import Solid
 from dq_marine.task.things import Block, Column, Faces, Form, Relief, Sphere, Thing, Tube
 from dq_marine.viewer.placement import rotation_between
+from dq_marine.viewer.snapshot import FloatArray
 
 SIGHT = 60.0
 """How far planes and pillars are drawn, over the vehicle's length."""
@@ -56,13 +55,14 @@ def _form(shape: object) -> Form | None:
             return Block(*size)
         case Rod(end=end, radius=radius):
             return Tube(((0.0, 0.0, 0.0), end), radius)
-    triangles = getattr(shape, "triangles", None)
-    return None if triangles is None else Faces(_corners(triangles))
+    from dq_marine.charts.solid_chart import SolidChart  # here: it imports what reads and mends meshes
+
+    return Faces(_corners(shape.triangles)) if isinstance(shape, SolidChart) else None
 
 
-def _corners(triangles: object) -> tuple[tuple[Vector3, Vector3, Vector3], ...]:
+def _corners(triangles: FloatArray) -> tuple[tuple[Vector3, Vector3, Vector3], ...]:
     """Return an array of shape (n, 3, 3) as tuples."""
-    return tuple(tuple(map(tuple, three)) for three in np.asarray(triangles).tolist())  # type: ignore[misc]
+    return tuple(tuple(map(tuple, three)) for three in triangles.tolist())  # type: ignore[misc]
 
 
 def _level(position: Vector3, sight: float) -> Thing:

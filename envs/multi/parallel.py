@@ -21,6 +21,7 @@ from dq_marine.envs.core.shared_memory import parameters_of, task_memory, tell_a
 from dq_marine.envs.multi.watch import Seen, Watch, seen_from_above
 from dq_marine.errors import InvalidInputError
 from dq_marine.simulation.settings import VehicleLike
+from dq_marine.simulation.solids import solids_of
 from dq_marine.task.traffic import MISS, TIME_SPREAD, Own
 from dq_marine.util.extras import extra_needed
 from dq_marine.vehicles import load_vehicle
@@ -66,7 +67,7 @@ class MarineParallelEnv(ParallelEnv[str, Observation, Action]):
         if definition.meets is None:
             others = [one.id for one in registered_tasks() if one.meets is not None]
             raise InvalidInputError(f"task = {shown(task)} has no vessels that meet; give one of {others}")
-        if keywords.get("solids"):
+        if solids_of(keywords.get("solids", ())):
             raise InvalidInputError(
                 f"solids = {shown(keywords['solids'])}: each vessel's axes have an origin of their own, so that solids "
                 "would stand elsewhere for each; leave them out"

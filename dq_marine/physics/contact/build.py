@@ -15,7 +15,6 @@ from dq_marine.integrator.contact import (
     HullSpheres,
     Surface,
     make_contact,
-    no_contact,
 )
 from dq_marine.physics.contact.formulas import make_placed
 from dq_marine.physics.contact.hull import hull_spheres
@@ -36,16 +35,16 @@ class ContactTerm(NamedTuple):
 
     Attributes:
         name: of the term; empty if nothing is solid.
-        contact: the pure function.
+        contact: the pure function; None if nothing is.
         parameters: its numbers.
     """
 
     name: str
-    contact: Contact
+    contact: Contact | None
     parameters: Any
 
 
-NOTHING_SOLID = ContactTerm("", no_contact, ())
+NOTHING_SOLID = ContactTerm("", None, ())
 
 
 def contact_term(vehicle: Vehicle, solids: Sequence[Solid]) -> ContactTerm:

@@ -32,7 +32,7 @@ def hull_spheres(vehicle: Vehicle) -> HullSpheres:
     size = vehicle.dimensions
     if size.shape in ROUND:
         radius = 0.5 * min(size.width, size.height)
-        centers, radius = _along_axis(size.length, radius), radius
+        centers = _along_axis(size.length, radius)
     else:
         radius = EDGE * min(size.length, size.width, size.height)
         keel = 0.5 * size.height if size.draft is None else size.draft

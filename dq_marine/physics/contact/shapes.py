@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias, runtime_checkable
 
@@ -47,6 +46,7 @@ class Plane:
     """
 
     normal: Vector3 = (0.0, 0.0, -1.0)
+    distance = staticmethod(distance_of_plane)
 
     def __post_init__(self) -> None:
         """Check the normal.
@@ -63,11 +63,6 @@ class Plane:
         object.__setattr__(self, "normal", vector3(normal))
 
     @property
-    def distance(self) -> Distance:
-        """See `SolidShape`."""
-        return distance_of_plane
-
-    @property
     def numbers(self) -> Vector3:
         """See `SolidShape`: the unit normal."""
         normal = np.array(self.normal)
@@ -75,8 +70,8 @@ class Plane:
 
 
 @dataclass(frozen=True)
-class Ball:
-    """A ball about the origin, of a radius [m]."""
+class _Round:
+    """A shape that is known by its radius [m]."""
 
     radius: float
 
@@ -85,14 +80,23 @@ class Ball:
         object.__setattr__(self, "radius", _measure("radius", self.radius))
 
     @property
-    def distance(self) -> Distance:
-        """See `SolidShape`."""
-        return distance_of_ball
-
-    @property
     def numbers(self) -> tuple[float]:
         """See `SolidShape`."""
         return (self.radius,)
+
+
+@dataclass(frozen=True)
+class Ball(_Round):
+    """A ball about the origin, of a radius [m]."""
+
+    distance = staticmethod(distance_of_ball)
+
+
+@dataclass(frozen=True)
+class Pillar(_Round):
+    """A vertical cylinder through the origin, as long as the water is deep, of a radius [m]."""
+
+    distance = staticmethod(distance_of_pillar)
 
 
 @dataclass(frozen=True)
@@ -100,6 +104,7 @@ class Box:
     """A box about the origin, of whole sizes along its axes [m]."""
 
     size: Vector3
+    distance = staticmethod(distance_of_box)
 
     def __post_init__(self) -> None:
         """Check the sizes."""
@@ -109,35 +114,9 @@ class Box:
         object.__setattr__(self, "size", tuple(sides))
 
     @property
-    def distance(self) -> Distance:
-        """See `SolidShape`."""
-        return distance_of_box
-
-    @property
     def numbers(self) -> Vector3:
         """See `SolidShape`."""
         return (0.5 * self.size[0], 0.5 * self.size[1], 0.5 * self.size[2])
-
-
-@dataclass(frozen=True)
-class Pillar:
-    """A vertical cylinder through the origin, as long as the water is deep, of a radius [m]."""
-
-    radius: float
-
-    def __post_init__(self) -> None:
-        """Check the radius."""
-        object.__setattr__(self, "radius", _measure("radius", self.radius))
-
-    @property
-    def distance(self) -> Distance:
-        """See `SolidShape`."""
-        return distance_of_pillar
-
-    @property
-    def numbers(self) -> tuple[float]:
-        """See `SolidShape`."""
-        return (self.radius,)
 
 
 @dataclass(frozen=True)
@@ -146,6 +125,7 @@ class Rod:
 
     end: Vector3
     radius: float
+    distance = staticmethod(distance_of_rod)
 
     def __post_init__(self) -> None:
         """Check end and radius.
@@ -159,11 +139,6 @@ class Rod:
         object.__setattr__(self, "radius", _measure("radius", self.radius))
 
     @property
-    def distance(self) -> Distance:
-        """See `SolidShape`."""
-        return distance_of_rod
-
-    @property
     def numbers(self) -> tuple[Vector3, float]:
         """See `SolidShape`."""
         return (self.end, self.radius)
@@ -171,7 +146,7 @@ class Rod:
 
 Simple: TypeAlias = Plane | Ball | Box | Pillar | Rod
 
-SHAPES: dict[str, Callable[..., Simple]] = {
+SHAPES: dict[str, type[Simple]] = {
     "plane": Plane,
     "ball": Ball,
     "box": Box,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -44,11 +45,7 @@ class Solid:
         Raises:
             InvalidInputError: with the reason.
         """
-        if not isinstance(self.shape, SolidShape):
-            raise InvalidInputError(
-                f"a solid's shape = {shown(self.shape)}; give Plane(...), Ball(...), Box(...), Pillar(...), Rod(...) "
-                "or a SolidChart"
-            )
+        _check_shape(self.shape)
         position = finite_array("position_ned of a solid", self.position_ned, 3)
         if np.abs(position).max() > LARGEST:
             raise InvalidInputError(
@@ -69,3 +66,16 @@ class Solid:
     def place(self) -> Place:
         """Its numbers, as the step has them."""
         return Place(self.position_ned, math.cos(self.heading), math.sin(self.heading), self.shape.numbers)
+
+
+def _check_shape(shape: Any) -> None:
+    """Refuse what is no shape, by its distance from the origin."""
+    try:
+        fine = math.isfinite(shape.distance(shape.numbers, (0.0, 0.0, 0.0)))
+    except Exception as error:  # a shape of the user's own may raise anything
+        raise InvalidInputError(
+            f"a solid's shape = {shown(shape)} has no distance: {type(error).__name__}: {error}; give Plane(...), "
+            "Ball(...), Box(...), Pillar(...), Rod(...), a SolidChart, or a SolidShape of your own"
+        ) from error
+    if not fine:
+        raise InvalidInputError(f"a solid's shape = {shown(shape)} is not a finite distance from its origin")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.checks import one_of, shown
+from dq_marine.checks import check_entries, one_of, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.physics.term import ForceTerm
 from dq_marine.physics.waves.loads import WaveLoads
@@ -115,14 +115,8 @@ def _sea(given: dict[str, Any]) -> Sea:
 def _check_names(what: str, given: Mapping[str, Any], *classes: Any) -> None:
     """Refuse arguments that none of the classes takes, and a lack of those that they need."""
     known = [one for kind in classes for one in fields(kind)]
-    names = {one.name for one in known}
-    needed = {one.name for one in known if one.default is MISSING}
-    wrong = sorted(shown(name) for name in given if name not in names)
-    lacking = sorted(needed - given.keys())
-    if wrong or lacking:
-        told = [f"does not take {', '.join(wrong)}"] if wrong else []
-        told += [f"lacks {', '.join(lacking)}"] if lacking else []
-        raise InvalidInputError(f"weather: {what} {' and '.join(told)}; it takes {', '.join(sorted(names))}")
+    needed = [one.name for one in known if one.default is MISSING]
+    check_entries(f"weather: {what}", given, [one.name for one in known], needed)
 
 
 def plain_weather(weather: Sequence[Any]) -> list[dict[str, Any]]:

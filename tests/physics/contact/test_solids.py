@@ -114,12 +114,38 @@ def test_a_mesh_is_a_solid_and_travels_by_its_file(tmp_path):
         ([{"kind": "plane", "position_ned": [0.0, 1e9, 0.0]}], "at most 100000 m"),
         ([{"kind": "mesh", "file": "nowhere.stl"}], "a mesh lacks spacing"),
         ([{"kind": "mesh", "file": "nowhere.stl", "spacing": 0.1}], "nowhere.stl"),
+        ([{"kind": "mesh", "file": 5, "spacing": 0.1}], "file = 5 is no path of a file"),
         ([Solid(Plane())] * 65, "solids has 65 of them; give at most 64"),
     ],
 )
 def test_what_is_no_solid_is_refused(given, message):
     with pytest.raises(InvalidInputError, match=message):
         solids_of(given)
+
+
+class Deaf:
+    """A shape without a function."""
+
+    distance, numbers = 3.0, ()
+
+
+class Nowhere:
+    """A shape whose distance is no number."""
+
+    distance, numbers = staticmethod(lambda numbers, point: math.nan), ()
+
+
+@pytest.mark.parametrize(
+    ("shape", "message"),
+    [
+        (Deaf(), "has no distance: TypeError"),
+        (Plane, "has no distance"),
+        (Nowhere(), "is not a finite distance"),
+    ],
+)
+def test_a_shape_whose_distance_cannot_be_had_is_refused(shape, message):
+    with pytest.raises(InvalidInputError, match=message):
+        Solid(shape)
 
 
 @pytest.mark.parametrize(
