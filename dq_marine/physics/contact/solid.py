@@ -28,7 +28,7 @@ class Solid:
         heading: of the shape's x axis, from north towards east [rad].
         friction: Coulomb's coefficient, between hull and surface.
         stiffness: force per depth at each place of contact [N/m]; None for one with which the vehicle, on one place
-            alone, swings at 20 rad/s: its weight in air would press it in by 2.5 cm.
+            alone, swings at 20 rad/s: its weight in air would press it in by 2.5 cm at most.
         damping_ratio: of that swinging. 1 for critical damping; 0 for none, so that what hits rebounds.
     """
 
