@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.guidance import level_angles, levelled, wrapped
+from dq_marine.agents.controllers.rotation import crossed
 from dq_marine.agents.controllers.wrench_mapping import WRENCH_MAPPINGS
 from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.checks import one_of
@@ -185,7 +186,7 @@ class Autopilot:
     def wrench(self, attitude: Attitude, order: Order) -> Array:
         """Return the wrench wanted now, shape (6,) [N, N m]."""
         velocity, down = attitude.velocity_body, attitude.down_body
-        held = -np.concatenate([self._net_weight * down, np.cross(self._arm, down)])
+        held = -np.concatenate([self._net_weight * down, crossed(self._arm, down)])
         fastest = self._fastest_turn(order.speed)
         turn = order.turn_rate + self.angle_gain(YAW) * wrapped(order.heading_error)
         turn = max(-fastest, min(fastest, turn))

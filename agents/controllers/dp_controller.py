@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.reading import GOAL_POSE, Reading, goal_reader, read_goal_pose
-from dq_marine.agents.controllers.rotation import both_halves
+from dq_marine.agents.controllers.rotation import both_halves, crossed
 from dq_marine.agents.controllers.wrench_mapping import WRENCH_MAPPINGS, Given, WrenchMapping
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
@@ -218,7 +218,7 @@ class DPController:
     def _restoring_wrench(self, goal_to_body: Array) -> Array:
         """Return the wrench of weight and buoyancy, shape (6,); see `physics.hydrostatics.formulas.submerged`."""
         down = goal_to_body @ self._down_in_goal
-        return np.concatenate([self._net_weight * down, np.cross(self.vehicle.restoring_arm, down)])
+        return np.concatenate([self._net_weight * down, crossed(self.vehicle.restoring_arm, down)])
 
     def _integrate(self, reading: Reading, shortfall: Array) -> None:
         """Advance z by one control period; `shortfall` is the wrench given less the wrench wanted, shape (6,)."""

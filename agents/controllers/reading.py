@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.agents.controllers.rotation import rotation_vector
+from dq_marine.agents.controllers.rotation import crossed, rotation_vector
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.envs.core.observation import Observation
 from dq_marine.errors import InvalidInputError
@@ -91,7 +91,7 @@ def goal_reader(env: MarineEnv) -> Callable[[Observation], Reading]:
         if not moving:
             return pose
         velocity, turn_rate, acceleration = (parts[name] for name in GOAL_MOTION)
-        turning = np.cross(turn_rate, velocity)  # components along turning axes change by themselves
+        turning = crossed(turn_rate, velocity)  # components along turning axes change by themselves
         return pose._replace(
             goal_velocity_body=np.concatenate([velocity, turn_rate]),
             goal_acceleration_body=np.concatenate([acceleration - turning, np.zeros(3)]),
@@ -108,7 +108,7 @@ def read_goal_pose(observation: Observation) -> Reading:
 
 def goal_pose(position: Array, x_axis: Array, y_axis: Array, linear: Array, angular: Array) -> Reading:
     """Return the goal pose that the parts `GOAL_POSE` tell of, each of shape (3,)."""
-    goal_to_body = np.column_stack([x_axis, y_axis, np.cross(x_axis, y_axis)])
+    goal_to_body = np.column_stack([x_axis, y_axis, crossed(x_axis, y_axis)])
     error = np.concatenate([position, rotation_vector(goal_to_body)])
     return Reading(error, np.concatenate([linear, angular]), goal_to_body)
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+from dq_marine.algebra.vector3 import cross
 
 Array = NDArray[np.float64]
 
@@ -42,6 +44,15 @@ def rotation_vector(r: Array) -> Array:
     if sine < SMALL_SINE:
         return 2.0 * q[1:]
     return 2.0 * math.atan2(sine, float(q[0])) / sine * q[1:]
+
+
+def crossed(a: ArrayLike, b: ArrayLike) -> Array:
+    """Return the vector product a x b, shape (3,).
+
+    It is asked for in every control period, and `numpy.cross`, made for stacks of vectors, takes ten times as long.
+    """
+    (a_x, a_y, a_z), (b_x, b_y, b_z) = np.asarray(a).tolist(), np.asarray(b).tolist()
+    return np.array(cross((a_x, a_y, a_z), (b_x, b_y, b_z)))
 
 
 def both_halves(r: Array, a: Array) -> Array:

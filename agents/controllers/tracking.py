@@ -20,6 +20,7 @@ from dq_marine.agents.controllers.dp_controller import DPController
 from dq_marine.agents.controllers.journeys import Journey
 from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
 from dq_marine.agents.controllers.reading import GOAL_MOTION, GOAL_POSE
+from dq_marine.agents.controllers.rotation import crossed
 from dq_marine.agents.environments import marine
 from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.envs.core.marine_env import Action
@@ -73,13 +74,13 @@ class Following(Journey):
         """Return the action in [-1, 1], shape (n,)."""
         parts = self._read(observation)
         velocity, starboard = parts["goal_velocity_body"], parts["goal_y_axis_body"]
-        down = np.cross(parts["goal_x_axis_body"], starboard)  # the goal is level
+        down = crossed(parts["goal_x_axis_body"], starboard)  # the goal is level
         goal_speed = max(float(np.linalg.norm(velocity)), 1e-6)
         ahead = velocity / goal_speed
-        error, below = parts["goal_position_body"], np.cross(ahead, starboard)
+        error, below = parts["goal_position_body"], crossed(ahead, starboard)
         pace = 1.0 + CATCHING_UP * float(error @ ahead) / self._pilot.length
         speed = min(FASTEST * self._pilot.top_speed, max(SLOWEST, pace) * goal_speed)
-        bend = np.cross(parts["goal_turn_rate_body"], ahead) * self._pilot.length / goal_speed
+        bend = crossed(parts["goal_turn_rate_body"], ahead) * self._pilot.length / goal_speed
         off = Offset(-float(error @ starboard), -float(error @ below))
         attitude = seen(parts | {"down_body": down})
         return self._pilot.act(attitude, self._guidance.order(attitude, speed, ahead, bend, off))

@@ -42,6 +42,34 @@ def unpack(like: Any, numbers: NDArray[np.floating[Any]]) -> Any:
     return rebuild(like, iter(numbers.tolist()))
 
 
+class Unpacker:
+    """Unpacks arrays that are alike, one after the other, and builds anew only the parts whose numbers have changed.
+
+    For who asks again and again: the parameters of a step hold the thousands of numbers of a sea, which stay.
+    """
+
+    def __init__(self, like: tuple[Any, ...]) -> None:
+        ends = np.cumsum([sum(1 for _ in flatten(part)) for part in like]).tolist()
+        self._like = like
+        self._places = [slice(first, end) for first, end in zip([0, *ends], ends, strict=False)]
+        self._bits = [b""] * len(like)
+        self._parts = list(like)
+        self._whole: Any = None
+
+    def __call__(self, numbers: NDArray[np.floating[Any]]) -> Any:
+        """Return what `unpack` returns."""
+        changed = self._whole is None
+        for index, place in enumerate(self._places):
+            part = numbers[place]
+            bits = part.tobytes()
+            if bits != self._bits[index]:
+                self._bits[index], self._parts[index] = bits, unpack(self._like[index], part)
+                changed = True
+        if changed:
+            self._whole = _of_kind(self._like, self._parts)
+        return self._whole
+
+
 def unpack_columns(like: Any, rows: NDArray[np.float64]) -> Any:
     """Return nested tuples shaped as `like`, with the columns of `rows` as their components."""
     return rebuild(like, iter(rows.T))
@@ -53,7 +81,10 @@ def rebuild(like: Any, components: Iterator[Any]) -> Any:
         return next(components)
     if isinstance(like, Table):  # of a sea, some thousands: all at once
         return Table(islice(components, len(like)))
-    parts = [rebuild(part, components) for part in like]
+    return _of_kind(like, [rebuild(part, components) for part in like])
+
+
+def _of_kind(like: tuple[Any, ...], parts: list[Any]) -> Any:
     return type(like)(*parts) if hasattr(like, "_fields") else type(like)(parts)
 
 

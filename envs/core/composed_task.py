@@ -319,7 +319,7 @@ _NOTHING = _Nothing()
 """Stands for the definition while an environment is being made."""
 
 
-_NOT_CARRIED = ("_step", "_motion", "_view", "action_mapping", "task")
+_NOT_CARRIED = ("_step", "_motion", "_unpacked", "_view", "action_mapping", "task")
 
 
 def _check_parameters(definition: TaskDefinition, parameters: Any) -> None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from dq_marine.algebra.spatial import to_fossen
 from dq_marine.algebra.vector3 import dot
 from dq_marine.backend.control_period import ACTION_NOT_FINITE
-from dq_marine.backend.packing import unpack
+from dq_marine.backend.packing import Unpacker
 from dq_marine.envs.core.action_mapping import whole_action
 from dq_marine.envs.core.beginning import begun_episode
 from dq_marine.envs.core.currents import turn_current
@@ -101,6 +101,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
         self.render_mode = checked_render_mode(render_mode, self.metadata["render_modes"])
         self.record = bool(record)
         self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]
+        self._unpacked = Unpacker(self.base_parameters)
         self._view = EpisodeView(self)
         self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self.action_mapping.places),), np.float32)
         self.observation_space = observation_space(self.observation_bound, self.observation_places)
@@ -183,7 +184,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
         """
         episode = Episode(**self._running("foreseen").to_dict())
         self._advance(episode, action, copy.deepcopy(self.np_random))
-        return self._motion(unpack(self.base_parameters, episode.parameters), episode.body)
+        return self._motion(self._unpacked(episode.parameters), episode.body)
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return a picture, uint8 (height, width, 3), in mode "rgb_array"; None otherwise.
@@ -342,6 +343,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Compile again (from the cache on disk) and start without a window."""
         super().__setstate__(state)
+        self._unpacked = Unpacker(self.base_parameters)
         self._view = EpisodeView(self)
 
     # Inside
@@ -387,4 +389,4 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
     @property
     def _parameters(self) -> StepParameters:
         """The numbers of the step of the episode in progress, its water included."""
-        return unpack(self.base_parameters, self._running("the parameters").parameters)  # type: ignore[no-any-return]
+        return self._unpacked(self._running("the parameters").parameters)  # type: ignore[no-any-return]

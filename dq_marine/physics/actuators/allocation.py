@@ -95,6 +95,7 @@ class ThrustAllocator:
         self._weights = np.array([1.0] * 3 + [1.0 / length] * 3) * (vehicle.wrench_limits > 0.0)
         self._actuators = actuators
         self._channels = actuators.channels
+        self._of_thrusts, self._of_deflections = actuators.thrust_matrix, actuators.fin_matrix
         thrusters = [thruster.thrust_range for thruster in actuators.thrusters]
         azimuths = [bounds for azimuth in actuators.azimuths for bounds in _rectangle(azimuth)]
         fins = [(-fin.limit, fin.limit) for fin in actuators.fins]
@@ -112,7 +113,7 @@ class ThrustAllocator:
         """
         wanted = finite_array("wrench_body", wrench_body, 6)
         u = finite_number("surge_speed", surge_speed)
-        matrix = np.hstack([self._actuators.thrust_matrix, u * abs(u) * self._actuators.fin_matrix])
+        matrix = np.hstack([self._of_thrusts, u * abs(u) * self._of_deflections])
         forces = self._within_circles(Columns(matrix, self._low, self._high), wanted)
         command, given = self._commands(forces)
         reached: Array = matrix @ given

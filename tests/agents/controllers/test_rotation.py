@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from dq_marine.agents.controllers.rotation import SMALL_SINE, quaternion_from_matrix, rotation_vector
+from dq_marine.agents.controllers.rotation import SMALL_SINE, crossed, quaternion_from_matrix, rotation_vector
 
 AXES = [*np.eye(3), np.array([1.0, -2.0, 3.0]) / math.sqrt(14.0)]
 
@@ -56,3 +56,10 @@ def test_quaternion_has_unit_length_and_no_negative_scalar(axis: np.ndarray) -> 
         np.testing.assert_allclose(
             Rotation.from_quat(q, scalar_first=True).as_matrix(), rotation.as_matrix(), atol=1e-12
         )
+
+
+def test_vector_products_have_numpys_bits():
+    pairs = np.random.default_rng(7).normal(scale=1e3, size=(200, 2, 3))
+    for a, b in pairs:
+        assert np.array_equal(crossed(a, b), np.cross(a, b))
+    assert crossed((1, 0, 0), [0, 1, 0]).tolist() == [0.0, 0.0, 1.0]
