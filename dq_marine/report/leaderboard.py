@@ -32,8 +32,11 @@ from dq_marine.util.files import write_whole
 from dq_marine.util.side_by_side import one_thread_each
 from dq_marine.vehicles import load_vehicle, vehicle_names
 
-ONLY_SHOWING = ("cli", "manoeuvres", "viewer", "report", "validation", "identification")
-"""Folders of the package that decide nothing about how an agent flies."""
+NOT_FLYING = (
+    *("cli", "manoeuvres", "viewer", "report", "validation", "identification"),
+    *("agents/interactive", "agents/shipped", "agents/training", "agents/tuning"),
+)
+"""Folders of the package that decide nothing about how an agent flies; a policy is known by its own digest."""
 
 
 class Entry(NamedTuple):
@@ -255,7 +258,7 @@ class Kept:
             InvalidInputError: the file is there and cannot be read.
         """
         self.path = path
-        self._key = {**asdict(plan), "sources": fingerprint(sources(without=ONLY_SHOWING))}
+        self._key = {**asdict(plan), "sources": fingerprint(sources(without=NOT_FLYING))}
         self.results: dict[Entry, Result] = {}
         if path.is_file() and not fresh:
             content, results = read_results(path)
