@@ -35,6 +35,17 @@ def each_stage(weights: Weights, function: Callable[..., Any], arguments: tuple[
     return stages_together(tuple(results))
 
 
+def for_each(cases: tuple[Any, ...], function: Callable[[Any, Any], Any], others: Any) -> tuple[Any, ...]:
+    """Return function(case, others) of every case: of what is computed for one body several times, as beams are.
+
+    Args:
+        cases: (nested tuples of) numbers, all alike.
+        function: of ordinary numbers; it may decide as all pure functions do (see `algebra.selection`).
+        others: (nested tuples of) ordinary numbers, the same for all cases.
+    """
+    return tuple(function(case, others) for case in cases)
+
+
 def stage_constants(weights: Weights, like: float) -> Any:
     """Return stages that hold these numbers, the same for every body, in as many lanes as `like` has."""
     return Stages(weights)

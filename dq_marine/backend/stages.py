@@ -5,6 +5,8 @@ stages: an array of vectors, all bodies at one stage in each. Both kinds know ho
 called once for all stages of one body, but of bodies in lanes stage by stage: their vectors are full, and one of all
 stages would not fit into the processor's registers. What a method with one stage has at its stage is an ordinary
 number.
+
+The same vectors serve what is computed several times for one body, such as a fan's beams: `for_each`.
 """
 
 from __future__ import annotations
@@ -272,6 +274,29 @@ def first_lanes(typing_context: Any, structure: Any) -> Any:
         return find(structure, values[0])
 
     return signature(result, structure), generate
+
+
+MOST_CASES = 8
+"""As many cases of one body are computed at a time: doubles in the widest vector of a processor."""
+
+
+@provide(stages.for_each)
+def _for_each(cases: Any, function: Any, others: Any) -> Any:
+    def in_turn(cases: Any, function: Any, others: Any) -> Any:
+        return (function(cases[0], others), *stages.for_each(cases[1:], function, others))
+
+    def side_by_side(cases: Any, function: Any, others: Any) -> Any:
+        return apart(cases, function(together(cases), others))
+
+    def in_groups(cases: Any, function: Any, others: Any) -> Any:
+        first, rest = cases[:MOST_CASES], cases[MOST_CASES:]
+        return (*stages.for_each(first, function, others), *stages.for_each(rest, function, others))
+
+    if len(cases.types) == 1:
+        return lambda cases, function, others: (function(cases[0], others),)
+    if find_lanes(others) is not None:
+        return in_turn
+    return side_by_side if len(cases.types) <= MOST_CASES else in_groups
 
 
 @provide(stages.stage_constants)

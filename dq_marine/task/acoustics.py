@@ -19,7 +19,7 @@ from dq_marine.algebra.elementary import arctangent, sine_and_cosine
 from dq_marine.algebra.level import Level, level_cross, level_dot
 from dq_marine.algebra.normal import normal_pair
 from dq_marine.algebra.quaternion import rotate
-from dq_marine.algebra.selection import rounded, select
+from dq_marine.algebra.selection import rounded, select, some
 from dq_marine.algebra.vector3 import Vector3, bounded, dot, subtract
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND
@@ -224,8 +224,9 @@ def listened(
     (a, b, c), (_, of_a, of_b, of_c) = senders, modem.drifts
     sender, drift = select(turn < 0.5, (a, of_a), select(turn < 1.5, (b, of_b), (c, of_c)))
     before, first, second, third = modem.packet, modem.last[0], modem.last[1], modem.last[2]
-    aged = Packet(before.range, before.age + period, before.due, before.message)
-    packet = select(begins, _sent(link, modem, motion, sender, drift), aged)
+    packet = Packet(before.range, before.age + period, before.due, before.message)
+    if some(begins):
+        packet = select(begins, _sent(link, modem, motion, sender, drift), packet)
     understood = (packet.due > 0.0) & (packet.age >= packet.due)
     return Modem(
         select(begins, clock - link.slot, clock),

@@ -10,6 +10,7 @@ from dq_marine.algebra.spatial import Spatial, spatial_add, spatial_add_scaled
 from dq_marine.algebra.stages import (
     Stages,
     each_stage,
+    for_each,
     stage_constants,
     stage_product,
     stage_sum,
@@ -58,15 +59,37 @@ def make_exercise(count):
     return exercise
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 4])
-def test_the_same_bits_however_they_are_computed(count):
-    exercise = make_exercise(count)
+def make_cases(count):
+    """A function for a number of cases, each with numbers of its own."""
+    cases = tuple(map(tuple, np.random.default_rng(count).normal(size=(count, 2)).tolist()))
+
+    def one(case, others):
+        strength, a = others
+        return swing(case[0] * strength, a, case[1])
+
+    def exercise(strength, a):
+        for found in for_each(cases, one, (strength, a)):
+            a = spatial_add_scaled(found, 0.5, a)
+        return a
+
+    return exercise
+
+
+@pytest.mark.parametrize(
+    ("make", "count"),
+    [
+        *((make_exercise, count) for count in (1, 2, 3, 4)),
+        *((make_cases, count) for count in (1, 2, 6, 9, 17)),
+    ],
+)
+def test_the_same_bits_however_they_are_computed(make, count):
+    exercise = make(count)
     load = make_load(structure_type(LIKE))
 
     def alone(numbers, result):
         store(result, exercise(numbers[6], load(numbers)))
 
-    compiled = compile_function(alone, f"stages {count}")
+    compiled = compile_function(alone, f"{make.__name__} {count}")
     rows = np.random.default_rng(0).uniform(-1.0, 1.0, size=(8, 6))
     results = np.empty((8, 6))
     for row, result in zip(rows, results, strict=True):
@@ -74,10 +97,10 @@ def test_the_same_bits_however_they_are_computed(count):
         a = Spatial(tuple(row[:3].tolist()), tuple(row[3:].tolist()))
         assert np.array_equal(pack(exercise(SHARED, a)), result)
     for shared in (True, False):
-        assert np.array_equal(in_lanes(exercise, rows, shared, count), results)
+        assert np.array_equal(in_lanes(exercise, rows, shared, f"{make.__name__} {count}"), results)
 
 
-def in_lanes(exercise, rows, shared, count):
+def in_lanes(exercise, rows, shared, key):
     """The results of bodies in lanes, whose strength is one for all or one for each."""
     lanes = lanes_of("float64", "strict")
     packing = packing_of((SHARED, LIKE), lanes, lambda path: shared and path == (0,))
@@ -90,7 +113,7 @@ def in_lanes(exercise, rows, shared, count):
 
     bodies, results = empty_blocks(packing, 8, lanes), empty_blocks(outcome, 8, lanes)
     pack_blocks(packing, np.column_stack([np.full(8, SHARED), rows]), bodies)
-    compile_function(block, f"stages {count} {packing.key}")(np.array([SHARED]), bodies, results)
+    compile_function(block, f"{key} {packing.key}")(np.array([SHARED]), bodies, results)
     return unpack_blocks(outcome, np.empty(0), results, 8)
 
 

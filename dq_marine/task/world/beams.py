@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from dq_marine.algebra.normal import normal_pair
 from dq_marine.algebra.quaternion import Quaternion, rotate
 from dq_marine.algebra.selection import select, smallest_normal
+from dq_marine.algebra.stages import for_each
 from dq_marine.algebra.vector3 import Vector3, add_scaled, scale
 
 FORWARD = math.pi
@@ -87,29 +88,18 @@ def make_fan(fan: Fan, cast: Cast) -> Callable[[Any, Vector3, Quaternion, float]
         fan: where they point.
         cast: what a beam meets.
     """
-    beams, middle, side = _make_beams(fan.bearings, cast), fan.middle, fan.side
+    ways = tuple((math.cos(one), math.sin(one)) for one in fan.bearings)
+    fan_middle, fan_side = fan.middle, fan.side
+
+    def one(way: tuple[float, float], others: Any) -> float:
+        world, position, middle, side, reach = others
+        return cast(world, position, add_scaled(scale(way[0], middle), way[1], side), reach)
 
     def ranges(world: Any, position: Vector3, attitude: Quaternion, reach: float) -> Any:
-        return beams(world, position, rotate(attitude, middle), rotate(attitude, side), reach)
+        middle, side = rotate(attitude, fan_middle), rotate(attitude, fan_side)
+        return for_each(ways, one, (world, position, middle, side, reach))
 
     return ranges
-
-
-def _make_beams(bearings: tuple[float, ...], cast: Cast) -> Callable[..., Any]:
-    cosine, sine = math.cos(bearings[0]), math.sin(bearings[0])
-
-    def one(world: Any, position: Vector3, middle: Vector3, side: Vector3, reach: float) -> Any:
-        return (cast(world, position, add_scaled(scale(cosine, middle), sine, side), reach),)
-
-    if len(bearings) == 1:
-        return one
-    rest = _make_beams(bearings[1:], cast)
-
-    def beams(world: Any, position: Vector3, middle: Vector3, side: Vector3, reach: float) -> Any:
-        nearest = one(world, position, middle, side, reach)
-        return (*nearest, *rest(world, position, middle, side, reach))
-
-    return beams
 
 
 def make_errors(beams: int, first: int = 0) -> Callable[[float, float, tuple[float, ...]], Any]:

@@ -68,7 +68,8 @@ def test_no_offset_is_left_by_a_steady_current(name):
     assert episode.measured["heading_error"][-20:].max() < 2e-4
 
 
-@each_by_lqr_and_in_ci_by_mpc
+@pytest.mark.sweep  # wrenches go to thrusters as those of test_thruster_control.py do
+@pytest.mark.parametrize("name", MODEL_BASED)
 def test_it_drives_thrusters_too(name):
     env = made(actuation="thrusters", max_episode_steps=150)
     episode = fly_episode(env, make_baseline(name, env), seed=1)

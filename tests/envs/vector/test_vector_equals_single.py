@@ -198,10 +198,9 @@ ARITHMETICS = [
 ]
 """Arithmetic, precision, how far from the strict float64 result, and how large powers of ten it may meet."""
 
-SWEPT = sweep(ARITHMETICS, plain=ARITHMETICS[2:])
 
-
-@pytest.mark.parametrize(("arithmetic", "precision", "tolerance", "_"), SWEPT)
+@pytest.mark.sweep  # lanes in other arithmetic are in a plain run in tests/simulation/test_batch.py
+@pytest.mark.parametrize(("arithmetic", "precision", "tolerance", "_"), ARITHMETICS)
 def test_other_arithmetic_stays_close(arithmetic, precision, tolerance, _):
     count = 13
     envs = gym.make_vec(ID, num_envs=count, arithmetic=arithmetic, precision=precision)
@@ -224,7 +223,8 @@ def test_other_arithmetic_stays_close(arithmetic, precision, tolerance, _):
     close(np.array(envs.get_attr("position_ned")), [env.unwrapped.position_ned for env in separate.envs])
 
 
-@pytest.mark.parametrize(("arithmetic", "precision", "_", "__"), SWEPT)
+@pytest.mark.sweep
+@pytest.mark.parametrize(("arithmetic", "precision", "_", "__"), ARITHMETICS)
 def test_other_arithmetic_repeats_itself_through_ends(arithmetic, precision, _, __):
     keywords = {
         "arithmetic": arithmetic,
@@ -244,7 +244,8 @@ def test_other_arithmetic_repeats_itself_through_ends(arithmetic, precision, _, 
     assert same(*flights)
 
 
-@pytest.mark.parametrize(("arithmetic", "precision", "_", "largest"), SWEPT)
+@pytest.mark.sweep
+@pytest.mark.parametrize(("arithmetic", "precision", "_", "largest"), ARITHMETICS)
 def test_no_nan_leaves_other_arithmetic(arithmetic, precision, _, largest):
     """At any speed: a step is taken or refused, and what comes out is finite and in the observation space."""
     count, random = 13, np.random.default_rng(0)
