@@ -7,9 +7,8 @@ al. 2017, KDD). The return counts that the run would keep: of its best evaluatio
 
 from __future__ import annotations
 
-import multiprocessing
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any
@@ -28,7 +27,7 @@ from dq_marine.agents.tuning.study_folder import StudyFolder, StudyPlan
 from dq_marine.checks import whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
-from dq_marine.util.side_by_side import one_thread_each
+from dq_marine.util.side_by_side import workers
 
 with extra_needed("a search for hyperparameters", "tune"):
     import optuna
@@ -227,8 +226,8 @@ def _try_side_by_side(
 
     One that has ended makes room for the next, so that none is begun that was not asked for.
     """
-    plan, context = folder.read_plan(), multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context) as pool, one_thread_each():
+    plan = folder.read_plan()
+    with workers(processes) as pool:
         waiting = iter(coming)
 
         def begin(count: int) -> set[Future[None]]:

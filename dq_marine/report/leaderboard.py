@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import json
-import multiprocessing
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from dataclasses import asdict, dataclass
 from itertools import product
 from pathlib import Path
@@ -29,7 +28,7 @@ from dq_marine.report.leaderboard_policies import Policy
 from dq_marine.report.sources import fingerprint, sources
 from dq_marine.util.extras import extra_needed
 from dq_marine.util.files import write_whole
-from dq_marine.util.side_by_side import one_thread_each
+from dq_marine.util.side_by_side import workers
 from dq_marine.vehicles import load_vehicle, vehicle_names
 
 NOT_FLYING = (
@@ -330,15 +329,9 @@ def fly_all(
     asked = list(wanted)
     trained = {one.name: one for one in policies}
     missing = kept.missing(asked, trained)
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(max(1, min(processes, len(missing))), mp_context=context) as pool:
-        try:
-            with one_thread_each():
-                flights = [pool.submit(fly_entry, entry, plan, trained.get(entry.agent)) for entry in missing]
-            for done in as_completed(flights):
-                kept.add(done.result())
-                after(done.result())
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    with workers(max(1, min(processes, len(missing)))) as pool:
+        flights = [pool.submit(fly_entry, entry, plan, trained.get(entry.agent)) for entry in missing]
+        for done in as_completed(flights):
+            kept.add(done.result())
+            after(done.result())
     return [kept.results[entry] for entry in asked]

@@ -6,8 +6,11 @@ BLAS's threads wait for each other in loops, which is in vain while other proces
 from __future__ import annotations
 
 import contextlib
+import multiprocessing
 import os
+import threading
 from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
 
 THREAD_NUMBERS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 """Variables of the environment that BLAS, by whomever it was made, reads when it is loaded."""
@@ -23,3 +26,31 @@ def one_thread_each() -> Iterator[None]:
     finally:
         for name in unset:
             os.environ.pop(name, None)
+
+
+@contextlib.contextmanager
+def workers(count: int) -> Iterator[ProcessPoolExecutor]:
+    """Let so many processes work within the block, which import what they need anew.
+
+    They end with the block, by an exception after what they are at; and with this process, even where it is killed.
+    """
+    context = multiprocessing.get_context("spawn")
+    with one_thread_each(), ProcessPoolExecutor(count, context, _end_with_parent) as pool:
+        try:
+            yield pool
+        except BaseException:
+            # This waits, or the end of the block would take back that what waits is given up.
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def _end_with_parent() -> None:
+    """Watch the process that began this one: who is killed cannot say so, and this one would wait for ever."""
+    threading.Thread(target=_leave_after_parent, daemon=True).start()
+
+
+def _leave_after_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

@@ -125,9 +125,7 @@ def test_trials_that_begin_or_end_together_are_those_that_were_asked_for(
         return 1.0
 
     monkeypatch.setattr(tuning, "_trial_return", trial_return)
-    monkeypatch.setattr(
-        tuning, "ProcessPoolExecutor", lambda processes, mp_context: ThreadPoolExecutor(processes)
-    )
+    monkeypatch.setattr(tuning, "workers", ThreadPoolExecutor)
     plan = plan_of(tiny(tmp_path, "ppo", 64), seed=repetition)
     found = tune(StudyFolder(tmp_path / "study"), plan, trials=5, processes=4)
     assert sorted(begun) == sorted(one.number for one in found) == list(range(5))
