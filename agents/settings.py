@@ -199,6 +199,20 @@ class ImitationSettings(Settings):
     learning_rate: Positive = 1e-3
 
 
+class CurriculumSettings(Settings):
+    """Levels that are learned before the environment's own, one after the other.
+
+    Attributes:
+        levels: of the task's, the easiest first.
+        success: share of the last episodes that must succeed before the next level; at 0, that many must end.
+        episodes: how many that are.
+    """
+
+    levels: tuple[str, ...] = Field(min_length=1)
+    success: Fraction = 0.8
+    episodes: Count = 100
+
+
 class TrainingSettings(Settings):
     """Everything that a training run follows from, together with its seed.
 
@@ -213,6 +227,7 @@ class TrainingSettings(Settings):
         normalisation: of observations and rewards.
         evaluation: while training, on environments of its own.
         imitation: how the policy begins as the copy of a baseline; None where it begins with nothing learned.
+        curriculum: levels that are learned first; None for the environment's own from the start.
     """
 
     timesteps: Count
@@ -225,6 +240,7 @@ class TrainingSettings(Settings):
     normalisation: NormalisationSettings
     evaluation: EvaluationSettings
     imitation: ImitationSettings | None = None
+    curriculum: CurriculumSettings | None = None
 
     @model_validator(mode="after")
     def _batches_fit(self) -> Self:

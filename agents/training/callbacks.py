@@ -30,12 +30,17 @@ class Saves(Protocol):
 
 
 class Saver:
-    """Saves snapshots of a model into a run's folder, with the time spent so far."""
+    """Saves snapshots of a model into a run's folder, with the time spent so far.
+
+    Attributes:
+        lesson: of the curriculum that the model learns, from 0 on.
+    """
 
     def __init__(self, folder: RunFolder) -> None:
         """Start the session's clock."""
         self._folder = folder
-        self._spent_before = folder.progress("checkpoints").wall_time
+        before = folder.progress("checkpoints")
+        self.lesson, self._spent_before = before.lesson, before.wall_time
         self._began = time.monotonic()
 
     @property
@@ -49,7 +54,8 @@ class Saver:
         def write(folder: Path) -> None:
             save_model(model, folder, replay_buffer=kind == "checkpoints")
 
-        self._folder.save(kind, Progress(model.num_timesteps, self.wall_time, mean_return), write)
+        progress = Progress(model.num_timesteps, self.wall_time, mean_return, self.lesson)
+        self._folder.save(kind, progress, write)
 
 
 class Checkpoints(BaseCallback):

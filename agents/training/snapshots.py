@@ -25,11 +25,13 @@ class Progress:
         timesteps: learned from.
         wall_time: spent [s], over all sessions.
         mean_return: of the evaluation that made this the best so far; None if there was none.
+        lesson: of the curriculum, from 0 on.
     """
 
     timesteps: int
     wall_time: float
     mean_return: float | None = None
+    lesson: int = 0
 
 
 def write_progress(folder: Path, progress: Progress) -> None:
@@ -50,6 +52,7 @@ def read_progress(folder: Path) -> Progress:
         whole_number(f"{source}: timesteps", content["timesteps"], least=0),
         finite_number(f"{source}: wall_time", content["wall_time"], least=0.0),
         None if mean_return is None else finite_number(f"{source}: mean_return", mean_return),
+        whole_number(f"{source}: lesson", content.get("lesson", 0), least=0),
     )
 
 

@@ -21,6 +21,7 @@ from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.algorithms import OF_CONTRIB, Model
 from dq_marine.agents.training.beginning import check_can_begin
 from dq_marine.agents.training.callbacks import Checkpoints, Evaluations, ProgressUpdates, Saver
+from dq_marine.agents.training.curriculum import learn_lesson
 from dq_marine.agents.training.episode_log import EpisodeLog
 from dq_marine.agents.training.imitation import imitate
 from dq_marine.agents.training.learners import (
@@ -29,6 +30,7 @@ from dq_marine.agents.training.learners import (
     make_evaluation_envs,
     make_model,
 )
+from dq_marine.agents.training.lessons import lessons_of
 from dq_marine.agents.training.run_folder import LARGEST_SEED, RunFolder, RunPlan
 from dq_marine.agents.training.snapshots import read_progress
 from dq_marine.agents.training.trained_policy import TrainedPolicy
@@ -149,31 +151,9 @@ def _train(folder: RunFolder, plan: RunPlan, console: Console, watch: bool) -> S
     settings = plan.settings
     torch.set_num_threads(settings.torch_threads)
     saver = Saver(folder)
-    model = _model(folder, plan, console)
-    if watch:
-        environments_of(model).watch(0)
+    model = _model(folder, plan, saver.lesson, console)
     began_at, wall_before = model.num_timesteps, saver.wall_time
-    evaluations = Evaluations(
-        make_evaluation_envs(settings),
-        saver,
-        every=settings.evaluation.every,
-        training_envs=settings.envs,
-        seed=EVALUATION_SEED,
-        best=folder.progress("best").mean_return,
-    )
-    with _progress_bar(console) as bar:
-        name, total = settings.algorithm.name.upper(), settings.timesteps
-        task = bar.add_task(name, total=total, completed=began_at, late="-", best="-")
-        model.learn(
-            settings.timesteps - began_at,
-            callback=[
-                Checkpoints(saver, settings.checkpoint_every),
-                EpisodeLog(),
-                evaluations,
-                ProgressUpdates(bar, task, evaluations),
-            ],
-            reset_num_timesteps=False,
-        )
+    _learn(model, settings, saver, folder.progress("best").mean_return, console, watch)
     environments_of(model).close()
     saver.save("checkpoints", model)
     if folder.latest("best") is None:  # the run was shorter than the first evaluation
@@ -186,21 +166,62 @@ def _train(folder: RunFolder, plan: RunPlan, console: Console, watch: bool) -> S
     return summary
 
 
-def _model(folder: RunFolder, plan: RunPlan, console: Console) -> Model:
+def _learn(
+    model: Model,
+    settings: TrainingSettings,
+    saver: Saver,
+    best: float | None,
+    console: Console,
+    watch: bool,
+) -> None:
+    """Let a model learn the lesson that it is at, and those that follow."""
+    evaluations = Evaluations(
+        make_evaluation_envs(settings),
+        saver,
+        every=settings.evaluation.every,
+        training_envs=settings.envs,
+        seed=EVALUATION_SEED,
+        best=best,
+    )
+    with _progress_bar(console) as bar:
+        name, total = settings.algorithm.name.upper(), settings.timesteps
+        task = bar.add_task(name, total=total, completed=model.num_timesteps, late="-", best="-")
+        callbacks = [
+            Checkpoints(saver, settings.checkpoint_every),
+            EpisodeLog(),
+            evaluations,
+            ProgressUpdates(bar, task, evaluations),
+        ]
+        while model.num_timesteps < total:
+            if watch:
+                environments_of(model).watch(0)
+            if learn_lesson(model, settings, saver.lesson, callbacks):
+                saver.lesson += 1
+                saver.save("checkpoints", model)
+                console.print(_passed(settings, saver.lesson, model.num_timesteps))
+
+
+def _passed(settings: TrainingSettings, lesson: int, timesteps: int) -> str:
+    """Return what is said when a lesson comes next."""
+    before, coming = (one.environment.keywords.get("level") for one in lessons_of(settings)[lesson - 1 :][:2])
+    return f"Level {before} is learned after {timesteps:,} timesteps; next: {coming or 'without a level'}"
+
+
+def _model(folder: RunFolder, plan: RunPlan, lesson: int, console: Console) -> Model:
     """Return the model to go on with: of the latest checkpoint, or a new one, which may begin as a copy."""
-    checkpoint = folder.latest("checkpoints")
+    checkpoint, settings = folder.latest("checkpoints"), lessons_of(plan.settings)[lesson]
     if checkpoint is None:
-        model = make_model(plan.settings, plan.seed, folder.tensorboard)
-        if plan.settings.imitation is not None:
-            with console.status(f"Imitating the {plan.settings.imitation.teacher}"):
-                error = imitate(model, plan.settings, plan.seed)
+        model = make_model(settings, plan.seed, folder.tensorboard)
+        if settings.imitation is not None:
+            with console.status(f"Imitating the {settings.imitation.teacher}"):
+                error = imitate(model, settings, plan.seed)
             console.print(
-                f"Begins as a copy of the {plan.settings.imitation.teacher}: its actions differ by "
+                f"Begins as a copy of the {settings.imitation.teacher}: its actions differ by "
                 f"{math.sqrt(error):.3f} of the actuators' reach, root mean square"
             )
         return model
     done = read_progress(checkpoint).timesteps
-    return load_model(plan.settings, checkpoint, (plan.seed + done) % (LARGEST_SEED + 1), folder.tensorboard)
+    return load_model(settings, checkpoint, (plan.seed + done) % (LARGEST_SEED + 1), folder.tensorboard)
 
 
 def _score(folder: RunFolder, settings: TrainingSettings) -> Score:

@@ -73,9 +73,14 @@ def plan_of(settings: TrainingSettings, *, seed: int) -> StudyPlan:
     """Return a search that begins from a training, evaluated often enough for trials to be given up.
 
     Raises:
-        InvalidInputError: the seed is too large, or see `check_can_begin`.
+        InvalidInputError: the seed is too large, there is a curriculum, or see `check_can_begin`.
     """
     seed = whole_number("seed", seed, least=0, most=LARGEST_SEED)
+    if settings.curriculum is not None:
+        raise InvalidInputError(
+            f"curriculum.levels = {list(settings.curriculum.levels)}: trials learn at one level, so that their returns "
+            "can be compared; leave [curriculum] out"
+        )
     check_can_begin(settings)
     every = max(1, min(settings.evaluation.every, settings.timesteps // EVALUATIONS))
     evaluation = settings.evaluation.model_copy(update={"every": every})

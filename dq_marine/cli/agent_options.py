@@ -144,6 +144,7 @@ def requested_training(
     timesteps: int | None = None,
     envs: int | None = None,
     teacher: str | None = None,
+    curriculum: list[str] | None = None,
 ) -> TrainingSettings:
     """Return a preset's settings with what was asked for in its place.
 
@@ -154,6 +155,7 @@ def requested_training(
         timesteps: in all; None keeps the preset's, and so on for the others.
         envs: environments to learn from.
         teacher: the baseline that the policy begins as a copy of; None keeps the preset's, if it has one.
+        curriculum: levels that are learned first; None keeps the preset's, if it has any.
 
     Raises:
         InvalidInputError: the preset or an option is wrong, or they contradict each other.
@@ -170,6 +172,8 @@ def requested_training(
     content.update({name: value for name, value in asked.items() if value is not None})
     if teacher is not None:
         content["imitation"] = (content["imitation"] or {}) | {"teacher": teacher}
+    if curriculum is not None:
+        content["curriculum"] = (content["curriculum"] or {}) | {"levels": curriculum}
     content["environment"] = options.applied(settings.environment).model_dump()
     return validate_settings(content, TrainingSettings, source=f"{source} with these options")
 

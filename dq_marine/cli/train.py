@@ -33,6 +33,7 @@ EXAMPLES = examples(
     "dq-marine train --run runs/sac --algorithm sac --seed 1",
     "dq-marine train --run runs/memory --algorithm recurrent_ppo",
     "dq-marine train --run runs/docking --task Docking --imitate controller",
+    "dq-marine train --run runs/lessons --task Docking --level medium --curriculum easy",
     "dq-marine train --run runs/many --set randomise=default --set sensors=auv",
     "dq-marine train --run runs/calm --set current=0.1 --set reward.effort=0.05",
     "dq-marine train --print-preset --set actuation=thrusters > my_preset.toml",
@@ -64,6 +65,16 @@ def train(
             metavar="BASELINE",
             help="Begin as a copy of controller, lqr or mpc, and learn from there. With ppo; how, [imitation] in a "
             "preset says.",
+            show_default="none, or the preset's",
+        ),
+    ] = None,
+    curriculum: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--curriculum",
+            metavar="LEVEL",
+            help="Learn at this level until most episodes succeed, then at --level; may be repeated, easiest first. "
+            "When a level is learned, [curriculum] in a preset says.",
             show_default="none, or the preset's",
         ),
     ] = None,
@@ -106,13 +117,20 @@ def train(
             envs=envs,
             seed=seed,
             imitate=imitate,
+            curriculum=curriculum,
             force=force,
             **options.given(),
         )
         settings = None
     else:
         settings = requested_training(
-            options, algorithm=algorithm, preset=preset, timesteps=timesteps, envs=envs, teacher=imitate
+            options,
+            algorithm=algorithm,
+            preset=preset,
+            timesteps=timesteps,
+            envs=envs,
+            teacher=imitate,
+            curriculum=curriculum,
         )
     if run is None or only_print:
         print_preset(settings or RunFolder(run or "").read_plan().settings)

@@ -1,0 +1,16 @@
+"""What a curriculum consists of: the settings of each lesson. Without torch, so that they can be checked early."""
+
+from __future__ import annotations
+
+from dq_marine.agents.environments import with_keywords
+from dq_marine.agents.settings import TrainingSettings
+
+
+def lessons_of(settings: TrainingSettings) -> list[TrainingSettings]:
+    """Return the settings of each lesson: a run's at each level of its curriculum, and at last its own."""
+    levels = settings.curriculum.levels if settings.curriculum is not None else ()
+    return [*(_at_level(settings, level) for level in levels), settings]
+
+
+def _at_level(settings: TrainingSettings, level: str) -> TrainingSettings:
+    return settings.model_copy(update={"environment": with_keywords(settings.environment, level=level)})
