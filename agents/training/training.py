@@ -6,6 +6,7 @@ import importlib
 import importlib.metadata
 import math
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,6 +41,7 @@ from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
     import torch
+    from stable_baselines3.common.callbacks import BaseCallback
 
     importlib.import_module("tensorboard")  # SB3 imports it when it begins to log
 
@@ -81,6 +83,7 @@ def begin_training(
     force: bool = False,
     console: Console,
     watch: bool = False,
+    callbacks: Sequence[BaseCallback] = (),
 ) -> Summary:
     """Train from scratch.
 
@@ -91,6 +94,7 @@ def begin_training(
         force: replace the run in the folder.
         console: to tell progress on.
         watch: open a page that follows one of the environments.
+        callbacks: of Stable-Baselines3's, besides those of a run; such as an experiment tracker's.
 
     Raises:
         InvalidInputError: the folder is taken, the seed is too large, or see `check_can_begin`.
@@ -99,11 +103,16 @@ def begin_training(
     check_can_begin(settings)  # so that a mistake leaves an earlier run untouched
     plan = RunPlan(settings, seed, _versions(settings))
     with folder.begun(plan, force=force):
-        return _train(folder, plan, console, watch)
+        return _train(folder, plan, callbacks, console, watch)
 
 
 def resume_training(
-    folder: RunFolder, *, timesteps: int | None = None, console: Console, watch: bool = False
+    folder: RunFolder,
+    *,
+    timesteps: int | None = None,
+    console: Console,
+    watch: bool = False,
+    callbacks: Sequence[BaseCallback] = (),
 ) -> Summary:
     """Go on from the latest checkpoint, or from scratch if none was reached.
 
@@ -112,6 +121,7 @@ def resume_training(
         timesteps: a new total; None keeps the run's.
         console: to tell progress on.
         watch: open a page that follows one of the environments.
+        callbacks: of Stable-Baselines3's, besides those of a run; such as an experiment tracker's.
 
     Raises:
         InvalidInputError: there is no run, or it has its timesteps already.
@@ -128,7 +138,7 @@ def resume_training(
                 f"{folder.path} has learned from {done} timesteps, of {total} asked for; ask for more with --timesteps"
             )
         folder.write_plan(plan)
-        return _train(folder, plan, console, watch)
+        return _train(folder, plan, callbacks, console, watch)
 
 
 def summary_table(summary: Summary) -> Table:
@@ -147,13 +157,23 @@ def summary_table(summary: Summary) -> Table:
     return table
 
 
-def _train(folder: RunFolder, plan: RunPlan, console: Console, watch: bool) -> Summary:
+def _train(
+    folder: RunFolder, plan: RunPlan, further: Sequence[BaseCallback], console: Console, watch: bool
+) -> Summary:
     settings = plan.settings
     torch.set_num_threads(settings.torch_threads)
     saver = Saver(folder)
     model = _model(folder, plan, saver.lesson, console)
     began_at, wall_before = model.num_timesteps, saver.wall_time
-    _learn(model, settings, saver, folder.progress("best").mean_return, console, watch)
+    evaluations = Evaluations(
+        make_evaluation_envs(settings),
+        saver,
+        every=settings.evaluation.every,
+        training_envs=settings.envs,
+        seed=EVALUATION_SEED,
+        best=folder.progress("best").mean_return,
+    )
+    _learn(model, settings, saver, evaluations, further, console, watch)
     environments_of(model).close()
     saver.save("checkpoints", model)
     if folder.latest("best") is None:  # the run was shorter than the first evaluation
@@ -170,19 +190,12 @@ def _learn(
     model: Model,
     settings: TrainingSettings,
     saver: Saver,
-    best: float | None,
+    evaluations: Evaluations,
+    further: Sequence[BaseCallback],
     console: Console,
     watch: bool,
 ) -> None:
     """Let a model learn the lesson that it is at, and those that follow."""
-    evaluations = Evaluations(
-        make_evaluation_envs(settings),
-        saver,
-        every=settings.evaluation.every,
-        training_envs=settings.envs,
-        seed=EVALUATION_SEED,
-        best=best,
-    )
     with _progress_bar(console) as bar:
         name, total = settings.algorithm.name.upper(), settings.timesteps
         task = bar.add_task(name, total=total, completed=model.num_timesteps, late="-", best="-")
@@ -191,14 +204,16 @@ def _learn(
             EpisodeLog(),
             evaluations,
             ProgressUpdates(bar, task, evaluations),
+            *further,
         ]
         while model.num_timesteps < total:
             if watch:
                 environments_of(model).watch(0)
-            if learn_lesson(model, settings, saver.lesson, callbacks):
-                saver.lesson += 1
-                saver.save("checkpoints", model)
-                console.print(_passed(settings, saver.lesson, model.num_timesteps))
+            if not learn_lesson(model, settings, saver.lesson, callbacks):
+                break  # it has its timesteps, or a callback ended it
+            saver.lesson += 1
+            saver.save("checkpoints", model)
+            console.print(_passed(settings, saver.lesson, model.num_timesteps))
 
 
 def _passed(settings: TrainingSettings, lesson: int, timesteps: int) -> str:

@@ -16,6 +16,8 @@ from dq_marine.simulation.batch import Batch
 from dq_marine.simulation.one_body import OneBody
 from dq_marine.simulation.scene import Scene
 
+pytestmark = pytest.mark.sweep  # what a step computes is tried in a plain run, how fast is not
+
 MOSTLY = 0.95
 """What is scalar are sums and products of numbers that all bodies share."""
 

@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import pytest
 from report import synthetic
-from support.sweeps import sweeps_wanted
 from support.timings import without_timings
 from typer.testing import CliRunner, Result
 
@@ -182,19 +181,19 @@ def make_quickly(choice: list[str], folder: Path) -> Made:
 
 
 @pytest.fixture(scope="module")
-def quick(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
-    """A quick report of one study on one case; where sweeps run, of all on three, which differ most."""
-    choice = [*CASE, *MORE_CASES] if sweeps_wanted(request.config) else ONE_CASE
-    return make_quickly(choice, tmp_path_factory.mktemp("quick"))
+def quick(tmp_path_factory: pytest.TempPathFactory) -> Made:
+    """A quick report of all studies on three cases, which differ most."""
+    return make_quickly([*CASE, *MORE_CASES], tmp_path_factory.mktemp("quick"))
 
 
 @pytest.mark.slow
+@pytest.mark.sweep  # it compiles every method; a plain run has them one by one in the files beside this one
 def test_the_quick_report_passes_its_checks_and_is_there_at_once_the_second_time(quick: Made) -> None:
     decided = re.search(r"(\d+) of \1 checks passed", quick.output)
     assert decided, quick.output
     text, rows = (quick.folder / "index.html").read_text(), quick.rows()
-    assert int(decided[1]) >= (10 if quick.choice == ONE_CASE else 70), "most orders can be read off"
-    assert set(rows) == ({"work_precision"} if quick.choice == ONE_CASE else set(STUDIES))
+    assert int(decided[1]) >= 70, "most orders can be read off"
+    assert set(rows) == set(STUDIES)
     for name in rows:
         assert STUDIES[name].title in text
     assert text.count("<figure ") == sum(len(STUDIES[name].drawings(rows[name])) for name in rows)

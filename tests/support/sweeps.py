@@ -14,7 +14,7 @@ from hypothesis import settings
 
 REASON = "a sweep: runs in CI and with --sweeps"
 
-EXAMPLES, EXAMPLES_IN_PLAIN_RUNS = 100, 40
+EXAMPLES, EXAMPLES_IN_PLAIN_RUNS = 100, 20
 """How many inputs hypothesis draws for a law that does not say so itself."""
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rich.console import Console
+from stable_baselines3.common.callbacks import BaseCallback
 from support.sweeps import sweep
 from support.trainings import ALGORITHMS, REMEMBERING, preset, tiny
 from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
@@ -72,6 +73,25 @@ def test_a_run_from_start_to_evaluation(tmp_path: Path, algorithm: str, console:
     assert list(agents) == ["zero", "run"]
     first, again = (evaluate(env, agents, episodes=2, seed=5) for _ in range(2))
     assert first == again
+
+
+class Enough(BaseCallback):
+    """Ends a training after some timesteps."""
+
+    def __init__(self, timesteps: int) -> None:
+        super().__init__()
+        self._timesteps = timesteps
+
+    def _on_step(self) -> bool:
+        return self.num_timesteps < self._timesteps
+
+
+def test_a_callback_of_the_callers_own_follows_a_run_and_may_end_it(tmp_path: Path, console: Console) -> None:
+    folder, settings = RunFolder(tmp_path / "run"), tiny(tmp_path, "ppo")
+    assert begin_training(folder, settings, console=console, callbacks=[Enough(100)]).timesteps == 100
+    assert folder.progress("checkpoints").timesteps == 100
+    assert resume_training(folder, console=console, callbacks=[Enough(180)]).timesteps == 180
+    assert resume_training(folder, console=console).timesteps == 276
 
 
 def test_training_follows_from_its_seed(tmp_path: Path, console: Console) -> None:
