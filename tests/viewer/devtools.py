@@ -32,8 +32,14 @@ class Page:
         self._sent = 0
 
     def _holds(self, condition: str) -> bool:
+        """Whether it holds now; of what the page does not have yet, nothing holds."""
+        tried = f"try {{ return Boolean({condition}); }} catch (error)"
         try:
-            return bool(self.evaluate(f"Boolean({condition})"))
+            return bool(
+                self.evaluate(
+                    f"(() => {{ {tried} {{ if (error instanceof TypeError) return false; throw error; }} }})()"
+                )
+            )
         except NavigatedError:  # the browser goes from its first page to the one that is waited for
             return False
 
