@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -15,11 +16,26 @@ from dq_marine.agents.training.episode_log import episode_tags, mean_tags, metri
 from dq_marine.agents.training.learners import save_model
 from dq_marine.agents.training.run_folder import Kind, RunFolder
 from dq_marine.agents.training.snapshots import Progress
+from dq_marine.checks import shown
+from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
     from stable_baselines3.common.callbacks import BaseCallback, EvalCallback
     from stable_baselines3.common.vec_env import VecEnv
+
+
+def check_callbacks(callbacks: Sequence[BaseCallback]) -> None:
+    """Check what a caller gave, before anything is written.
+
+    Raises:
+        InvalidInputError: it is no sequence of callbacks.
+    """
+    if not isinstance(callbacks, Sequence) or not all(isinstance(one, BaseCallback) for one in callbacks):
+        raise InvalidInputError(
+            f"callbacks = {shown(callbacks)}; give a list of callbacks of Stable-Baselines3's, made already, such as "
+            "[WandbCallback()]"
+        )
 
 
 class Saves(Protocol):

@@ -50,7 +50,7 @@ def learn_lesson(
 
 
 class Graduation(BaseCallback):
-    """Ends a lesson once enough of its last episodes succeeded; logs how many did.
+    """Ends a lesson once enough of its last episodes succeeded; logs which it is.
 
     Attributes:
         passed: whether it has.

@@ -21,7 +21,13 @@ from dq_marine.agents.evaluation.evaluation import Score, evaluate
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.algorithms import OF_CONTRIB, Model
 from dq_marine.agents.training.beginning import check_can_begin
-from dq_marine.agents.training.callbacks import Checkpoints, Evaluations, ProgressUpdates, Saver
+from dq_marine.agents.training.callbacks import (
+    Checkpoints,
+    Evaluations,
+    ProgressUpdates,
+    Saver,
+    check_callbacks,
+)
 from dq_marine.agents.training.curriculum import learn_lesson
 from dq_marine.agents.training.episode_log import EpisodeLog
 from dq_marine.agents.training.imitation import imitate
@@ -31,7 +37,7 @@ from dq_marine.agents.training.learners import (
     make_evaluation_envs,
     make_model,
 )
-from dq_marine.agents.training.lessons import lessons_of
+from dq_marine.agents.training.lessons import check_lesson, lessons_of
 from dq_marine.agents.training.run_folder import LARGEST_SEED, RunFolder, RunPlan
 from dq_marine.agents.training.snapshots import read_progress
 from dq_marine.agents.training.trained_policy import TrainedPolicy
@@ -97,8 +103,9 @@ def begin_training(
         callbacks: of Stable-Baselines3's, besides those of a run; such as an experiment tracker's.
 
     Raises:
-        InvalidInputError: the folder is taken, the seed is too large, or see `check_can_begin`.
+        InvalidInputError: the folder is taken, the seed is too large, a callback is none, or see `check_can_begin`.
     """
+    check_callbacks(callbacks)
     seed = whole_number("seed", seed, least=0, most=LARGEST_SEED)
     check_can_begin(settings)  # so that a mistake leaves an earlier run untouched
     plan = RunPlan(settings, seed, _versions(settings))
@@ -124,15 +131,18 @@ def resume_training(
         callbacks: of Stable-Baselines3's, besides those of a run; such as an experiment tracker's.
 
     Raises:
-        InvalidInputError: there is no run, or it has its timesteps already.
+        InvalidInputError: there is no run, it has its timesteps already, or a callback is none.
     """
+    check_callbacks(callbacks)
     folder.read_plan()  # so that nothing is written where no run is
     with folder.locked():
         plan = folder.read_plan()
         if timesteps is not None:
             settings = plan.settings.model_copy(update={"timesteps": timesteps})
             plan = RunPlan(settings, plan.seed, plan.versions)
-        done, total = folder.progress("checkpoints").timesteps, plan.settings.timesteps
+        progress, total = folder.progress("checkpoints"), plan.settings.timesteps
+        check_lesson(plan.settings, progress.lesson, folder.path)
+        done = progress.timesteps
         if done >= total and folder.is_summed_up(done):  # else it was killed before it could say how it ended
             raise InvalidInputError(
                 f"{folder.path} has learned from {done} timesteps, of {total} asked for; ask for more with --timesteps"

@@ -39,7 +39,7 @@ def for_each(cases: tuple[Any, ...], function: Callable[[Any, Any], Any], others
     """Return function(case, others) of every case: of what is computed for one body several times, as beams are.
 
     Args:
-        cases: (nested tuples of) numbers, all alike.
+        cases: one or more (nested tuples of) numbers, all alike.
         function: of ordinary numbers; it may decide as all pure functions do (see `algebra.selection`).
         others: (nested tuples of) ordinary numbers, the same for all cases.
     """

@@ -49,7 +49,7 @@ class Unpacker:
     """
 
     def __init__(self, like: tuple[Any, ...]) -> None:
-        ends = np.cumsum([sum(1 for _ in flatten(part)) for part in like]).tolist()
+        ends = np.cumsum([pack(part).size for part in like]).tolist()
         self._like = like
         self._places = [slice(first, end) for first, end in zip([0, *ends], ends, strict=False)]
         self._bits = [b""] * len(like)

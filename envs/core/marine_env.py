@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Sequence
+from functools import cached_property
 from typing import Any, ClassVar, Unpack
 
 import gymnasium as gym
@@ -101,7 +102,6 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
         self.render_mode = checked_render_mode(render_mode, self.metadata["render_modes"])
         self.record = bool(record)
         self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]
-        self._unpacked = Unpacker(self.base_parameters)
         self._view = EpisodeView(self)
         self.action_space = gym.spaces.Box(-1.0, 1.0, (len(self.action_mapping.places),), np.float32)
         self.observation_space = observation_space(self.observation_bound, self.observation_places)
@@ -343,7 +343,6 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Compile again (from the cache on disk) and start without a window."""
         super().__setstate__(state)
-        self._unpacked = Unpacker(self.base_parameters)
         self._view = EpisodeView(self)
 
     # Inside
@@ -385,6 +384,10 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
     def _new_episode(self, parameters: EpisodeParameters, drawn: Drawn, number: int = 0) -> Episode:
         parts = (self.scene.composition, self.task, self.pool.parameters[number], parameters, drawn)
         return begun_episode(*parts, number, self.action_mapping.size)
+
+    @cached_property
+    def _unpacked(self) -> Unpacker:
+        return Unpacker(self.base_parameters)
 
     @property
     def _parameters(self) -> StepParameters:

@@ -20,6 +20,17 @@ ALT, CTRL = 1, 2
 """Keys that are held down while the mouse does something."""
 
 
+HOLDS = """(() => {
+  try {
+    return Boolean(CONDITION);
+  } catch (error) {
+    if (error instanceof TypeError) return false;
+    throw error;
+  }
+})()"""
+"""Whether a condition holds; it does not where it reads of something that is null or undefined."""
+
+
 class NavigatedError(Exception):
     """The browser could not evaluate an expression: its page was just replaced by another."""
 
@@ -33,13 +44,8 @@ class Page:
 
     def _holds(self, condition: str) -> bool:
         """Whether it holds now; of what the page does not have yet, nothing holds."""
-        tried = f"try {{ return Boolean({condition}); }} catch (error)"
         try:
-            return bool(
-                self.evaluate(
-                    f"(() => {{ {tried} {{ if (error instanceof TypeError) return false; throw error; }} }})()"
-                )
-            )
+            return bool(self.evaluate(HOLDS.replace("CONDITION", condition)))
         except NavigatedError:  # the browser goes from its first page to the one that is waited for
             return False
 

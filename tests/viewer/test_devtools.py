@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from viewer.devtools import open_page
 
@@ -10,8 +12,10 @@ pytestmark = pytest.mark.browser
 LATER = "setTimeout(() => document.body.insertAdjacentHTML('beforeend', '<p id=late>here</p>'), 300)"
 
 
-def test_what_is_not_there_yet_is_waited_for() -> None:
-    with open_page("data:text/html,<body></body>", ready="document.body !== null") as page:
+def test_what_is_not_there_yet_is_waited_for(tmp_path: Path) -> None:
+    file = tmp_path / "page.html"
+    file.write_text("<p id=begun></p>", encoding="utf-8")
+    with open_page(file.as_uri(), ready="document.getElementById('begun') !== null") as page:
         page.evaluate(LATER)
         page.wait_until("document.getElementById('late').innerText === 'here'")
         with pytest.raises(AssertionError, match="ReferenceError"):

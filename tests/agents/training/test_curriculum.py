@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -20,6 +21,7 @@ from dq_marine.agents.training.beginning import check_can_begin
 from dq_marine.agents.training.curriculum import Graduation
 from dq_marine.agents.training.lessons import lessons_of
 from dq_marine.agents.training.run_folder import RunFolder
+from dq_marine.agents.training.snapshots import read_progress, write_progress
 from dq_marine.agents.training.training import begin_training, resume_training
 from dq_marine.agents.tuning.tuning import plan_of
 from dq_marine.cli.main import app
@@ -114,16 +116,27 @@ def test_a_stopped_run_goes_on_with_its_lesson(tmp_path: Path, console: Console,
     assert levels == ["easy", "easy", "medium"]
 
 
+def test_a_snapshot_at_a_lesson_that_the_run_does_not_have_is_refused(
+    tmp_path: Path, console: Console
+) -> None:
+    folder = RunFolder(tmp_path / "run")
+    begin_training(folder, tiny(tmp_path, "ppo", 64), console=console)
+    snapshot = folder.latest("checkpoints")
+    assert snapshot is not None
+    write_progress(snapshot, replace(read_progress(snapshot), lesson=9))
+    plan = folder.read_plan()
+    with pytest.raises(InvalidInputError, match=r"was at lesson 9, counted from 0, and run\.json has 1;"):
+        resume_training(folder, timesteps=128, console=console)
+    assert folder.read_plan() == plan
+
+
 @pytest.mark.parametrize(("enough", "passes"), [(0.5, True), (0.6, False)])
 def test_enough_of_the_last_episodes_must_succeed(enough: float, passes: bool) -> None:
     graduation = Graduation(CurriculumSettings(levels=["easy"], success=enough, episodes=4), 0)
     logger = SimpleNamespace(record=lambda *_: None)
     graduation.model = SimpleNamespace(num_timesteps=0, logger=logger)  # type: ignore[assignment]
-    ends = [
-        (True, False),
-        (False, False),
-        (True, True),
-    ]  # of two environments; not all of them end at each step
+    # Of two environments, not all of which end at each step.
+    ends = [(True, False), (False, False), (True, True)]
     going_on = []
     for successes, dones in zip(ends, [(True, True), (False, True), (True, False)], strict=True):
         graduation.locals = {

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -92,6 +93,16 @@ def test_a_callback_of_the_callers_own_follows_a_run_and_may_end_it(tmp_path: Pa
     assert folder.progress("checkpoints").timesteps == 100
     assert resume_training(folder, console=console, callbacks=[Enough(180)]).timesteps == 180
     assert resume_training(folder, console=console).timesteps == 276
+
+
+@pytest.mark.parametrize("callbacks", [5, [5], [Enough]])
+def test_what_is_no_callback_is_refused_before_anything_is_written(
+    tmp_path: Path, console: Console, callbacks: Any
+) -> None:
+    folder, settings = RunFolder(tmp_path / "run"), tiny(tmp_path, "ppo", 64)
+    with pytest.raises(InvalidInputError, match=r"callbacks = .*; give a list of callbacks"):
+        begin_training(folder, settings, console=console, callbacks=callbacks)
+    assert not folder.path.exists()
 
 
 def test_training_follows_from_its_seed(tmp_path: Path, console: Console) -> None:
