@@ -10,6 +10,7 @@ import numpy as np
 
 from dq_marine.agents.controllers.autopilot import Attitude, Order, seen
 from dq_marine.agents.controllers.echoes import Echoes
+from dq_marine.agents.controllers.fresh_readings import FreshReadings
 from dq_marine.agents.controllers.guidance import levelled, no_turn_leads_to, wrapped
 from dq_marine.agents.controllers.journeys import MOTION, Journey, slow_bends
 from dq_marine.agents.controllers.ways import Ways
@@ -19,7 +20,7 @@ from dq_marine.agents.settings import AutopilotSettings, AvoidanceSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
 from dq_marine.envs.core.suitability import cruising_speed
-from dq_marine.task.world.beams import fan_forward
+from dq_marine.task.world.rangefinders import RANGE_FINDERS
 
 
 class AvoidanceController(Journey):
@@ -34,16 +35,18 @@ class AvoidanceController(Journey):
         autopilot: AutopilotSettings | None = None,
     ) -> None:
         """Prepare for an environment's vehicle; None reads the presets `avoidance` and `autopilot`."""
-        super().__init__(env, autopilot)
-        inner, size = marine(env), self._vehicle.dimensions
+        inner = marine(env)
+        finder = RANGE_FINDERS[inner.task_settings.range_finder]
+        self._fresh = FreshReadings(inner, finder.beams)
+        super().__init__(env, autopilot, self._fresh.reads)
+        size = self._vehicle.dimensions
         own = self._avoidance = settings or read_settings("avoidance", AvoidanceSettings)
         self._speed = cruising_speed(self._vehicle) * own.haste
         self._bend = slow_bends(self._pilot, self._settings, self._speed)[1]
-        beams = len(self._read(inner.observation_bound)["beam_readings"])
         self._horizon = min(own.look_ahead, inner.task_settings.reach) * size.length
         self._ways = Ways(own, 0.5 * size.width, size.length, self._pilot.turning_radius(self._speed))
         self._echoes = Echoes(
-            np.array(fan_forward(beams).bearings),
+            np.array(finder.fan.bearings),
             inner.task_settings.reach * size.length,
             own.lasting * size.length / self._speed,
         )
@@ -53,6 +56,7 @@ class AvoidanceController(Journey):
         """Forget the episode before."""
         super().reset(env)
         self._echoes.reset()
+        self._fresh.reset()
         self._kept = None
 
     def act(self, observation: Observation) -> Action:
@@ -65,7 +69,7 @@ class AvoidanceController(Journey):
         wanted = math.atan2(starboard, ahead)
         if no_turn_leads_to(ahead, starboard, self._bend):
             wanted = attitude.drift_angle  # on, until one does
-        kept = self._remember(parts["beam_readings"], attitude, wanted)
+        kept = self._remember(parts, attitude, wanted)
         horizon = max(self._pilot.length, min(self._horizon, level))
         chosen = self._ways.choose(self._echoes.points, attitude.drift_angle, wanted, kept, horizon)
         self._kept = wrapped(attitude.drift_angle + chosen.turn)
@@ -78,11 +82,14 @@ class AvoidanceController(Journey):
         error = speed - attitude.velocity_level[0]
         return self._pilot.act(attitude, Order(speed, error, chosen.turn, 0.0, climb))
 
-    def _remember(self, readings: Any, attitude: Attitude, wanted: float) -> float:
+    def _remember(self, parts: dict[str, Any], attitude: Attitude, wanted: float) -> float:
         """Bring the echoes up to now, and return the course that was chosen last, from the bow of now [rad]."""
         period = self._pilot.period
         ahead, starboard, _ = attitude.velocity_level
-        turn = period * float(attitude.velocity_body[5])
+        turning = float(attitude.velocity_body[5])
+        turn, fresh = period * turning, self._fresh.of(parts)
         self._echoes.move((period * ahead, period * starboard), turn, period)
-        self._echoes.add(readings, attitude.roll, attitude.pitch)
+        self._echoes.add(
+            parts["beam_readings"], attitude.roll, attitude.pitch, fresh, (ahead, starboard, turning)
+        )
         return wanted if self._kept is None else wrapped(self._kept - turn)

@@ -34,11 +34,16 @@ class Journey:
 
     READS: ClassVar[tuple[str, ...]]
 
-    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
+    def __init__(
+        self,
+        env: gym.Env[Any, Any],
+        autopilot: AutopilotSettings | None = None,
+        also_reads: tuple[str, ...] = (),
+    ) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
         inner = marine(env)
         self._vehicle = inner.vehicle
-        self._read = parts_reader(inner, self.READS)
+        self._read = parts_reader(inner, (*self.READS, *also_reads))
         self._settings = autopilot or read_settings("autopilot", AutopilotSettings)
         self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
 

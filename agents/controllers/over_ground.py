@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.controllers.autopilot import PITCH, YAW, Array, Attitude, Order
+from dq_marine.agents.controllers.dead_reckoning import carried
+from dq_marine.agents.controllers.fresh_readings import FreshReadings
 from dq_marine.agents.controllers.guidance import levelled
 from dq_marine.agents.controllers.journeys import Journey
 from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
@@ -17,6 +18,7 @@ from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import AutopilotSettings, GroundSettings
 from dq_marine.algebra.vector3 import Vector3
+from dq_marine.task.world.beams import Fan, directions_of
 
 
 class GroundJourney(Journey):
@@ -25,11 +27,14 @@ class GroundJourney(Journey):
     def __init__(
         self,
         env: gym.Env[Any, Any],
+        fan: Fan,
         settings: GroundSettings | None = None,
         autopilot: AutopilotSettings | None = None,
     ) -> None:
-        """Prepare for an environment's vehicle; None reads the presets `over_ground` and `autopilot`."""
-        super().__init__(env, autopilot)
+        """Prepare for an environment's vehicle, with its fan of beams; None reads `over_ground` and `autopilot`."""
+        self._beams_body = directions_of(fan)
+        self._fresh = FreshReadings(marine(env), len(self._beams_body))
+        super().__init__(env, autopilot, self._fresh.reads)
         task, length = marine(env).task_settings, self._vehicle.dimensions.length
         self._over_ground = settings or read_settings("over_ground", GroundSettings)
         self._altitude, self._reach = task.altitude * length, task.reach * length
@@ -43,6 +48,7 @@ class GroundJourney(Journey):
         super().reset(env)
         self._guidance.reset()
         self._ground.reset()
+        self._fresh.reset()
 
     def _gone(self, attitude: Attitude) -> tuple[Vector3, float]:
         """Return how far the vehicle has gone ahead, to starboard and down [m], and turned [rad], in a period."""
@@ -50,11 +56,14 @@ class GroundJourney(Journey):
         ahead, starboard, down = attitude.velocity_level
         return (period * ahead, period * starboard, period * down), period * float(attitude.velocity_body[5])
 
-    def _echoes(self, readings: Array, beams_body: Sequence[Vector3], attitude: Attitude) -> Array:
-        """Return what beams along unit vectors have met: ahead, to starboard and below, shape (n, 3) [m]."""
-        met = readings < 1.0
-        beams = np.array([levelled(beam, attitude.roll, attitude.pitch) for beam in beams_body])
-        return np.asarray(self._reach * readings[met, None] * beams[met])
+    def _echoes(self, readings: Array, parts: dict[str, Any], attitude: Attitude) -> Array:
+        """Return what the beams have just met: ahead, to starboard and below, shape (n, 3) [m]."""
+        fresh = self._fresh.of(parts)
+        met = (readings < 1.0) & fresh.beams
+        beams = np.array([levelled(beam, attitude.roll, attitude.pitch) for beam in self._beams_body])
+        way = [fresh.age * part for part in attitude.velocity_level]
+        turn = fresh.age * float(attitude.velocity_body[5])
+        return carried(self._reach * readings[met, None] * beams[met], way, turn)
 
     def _lead(self, speed: float) -> float:
         """Return how far ahead the ground's slope is followed [m]."""

@@ -12,11 +12,12 @@ from dq_marine.agents.controllers.autopilot import Attitude, seen
 from dq_marine.agents.controllers.journeys import MOTION
 from dq_marine.agents.controllers.over_ground import GroundJourney
 from dq_marine.agents.controllers.profiles import Line, Route
+from dq_marine.agents.controllers.reading import shown_sizes
 from dq_marine.agents.environments import marine
 from dq_marine.agents.settings import AutopilotSettings, GroundSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
-from dq_marine.task.world.beams import directions_of, fan_across
+from dq_marine.task.world.beams import fan_across
 
 PIPE_WIDTH = 2.0
 """Echoes that are nearer to a pipe's axis, seen from above, than so many radii, may be of the pipe."""
@@ -42,9 +43,8 @@ class PipelineController(GroundJourney):
         autopilot: AutopilotSettings | None = None,
     ) -> None:
         """Prepare for an environment's vehicle; None reads the presets `over_ground` and `autopilot`."""
-        super().__init__(env, settings, autopilot)
-        beams = len(self._read(marine(env).observation_bound)["sonar_readings"])
-        self._beams_body = directions_of(fan_across(beams))
+        beams = shown_sizes(marine(env))["sonar_readings"]
+        super().__init__(env, fan_across(beams), settings, autopilot)
         self._route = Route(0.5 * self._altitude, self._altitude)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
@@ -58,7 +58,7 @@ class PipelineController(GroundJourney):
         attitude, speed = seen(parts), float(parts["ordered_speed"][0])
         radius = float(parts["pipe_radius"][0])
         line = self._pipe(parts, attitude)
-        echoes = self._echoes(parts["sonar_readings"], self._beams_body, attitude)
+        echoes = self._echoes(parts["sonar_readings"], parts, attitude)
         on_pipe = np.abs(echoes[:, 1] - line.starboard) < PIPE_WIDTH * radius
         self._ground.move(*self._gone(attitude))
         self._ground.add(echoes[~on_pipe])

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from dq_marine.agents.controllers.dead_reckoning import carried
 
 Array = NDArray[np.float64]
 
@@ -58,9 +59,7 @@ class Echoed:
 
     def move(self, way: tuple[float, float, float], turn: float) -> None:
         """Tell how far a vehicle has gone ahead, to starboard and down [m], and turned to starboard [rad]."""
-        c, s = math.cos(turn), math.sin(turn)
-        ahead, starboard, below = (self._points - np.array(way)).T
-        moved = np.column_stack([c * ahead + s * starboard, c * starboard - s * ahead, below])
+        moved = carried(self._points, way, turn)
         self._points = moved[moved[:, 0] >= -self._behind]
 
     def add(self, points: Array) -> None:

@@ -51,6 +51,11 @@ def shown_names(env: MarineEnv) -> tuple[str, ...]:
     return tuple(one.name for one in env.observations)
 
 
+def shown_sizes(env: MarineEnv) -> dict[str, int]:
+    """Return how many numbers each part of an environment's observation has."""
+    return {one.name: one.size for one in env.observations}
+
+
 def parts_reader(env: MarineEnv, names: Sequence[str]) -> Callable[[Observation], dict[str, Array]]:
     """Return what takes parts out of the observations of an environment: arrays of doubles by name.
 

@@ -294,7 +294,7 @@ def _for_each(cases: Any, function: Any, others: Any) -> Any:
 
     if len(cases.types) == 1:
         return lambda cases, function, others: (function(cases[0], others),)
-    if find_lanes(others) is not None:
+    if find_lanes(others) is not None or find_lanes(cases) is not None:
         return in_turn
     return side_by_side if len(cases.types) <= MOST_CASES else in_groups
 

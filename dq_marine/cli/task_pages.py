@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import textwrap
 from collections.abc import Sequence
+from dataclasses import is_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -125,7 +126,7 @@ def task_page(task: TaskDefinition, flown: Sequence[Result]) -> str:
             *_section("Observation", observation_table(task, vehicle)),
             *_section("Reward", reward_table(task), documented(type(task.weights))),
             *_section("Metrics and success", outcome_table(task), documented(task.task.metrics), _end(task)),
-            *_section("Keywords", keyword_table(task, vehicle), documented(task.settings), OF_KEYWORDS),
+            *_section("Keywords", keyword_table(task, vehicle), *_keywords_said(task.settings), OF_KEYWORDS),
             *_section("Options of `reset`", options_table(task), "What is not given is drawn with the seed."),
             *(_section("Levels", level_table(task), OF_LEVELS) if task.levels else []),
             "## Vehicles that it suits",
@@ -195,6 +196,11 @@ def options_table(task: TaskDefinition) -> TextTable:
         (f"`{name}`", str(size), MEANINGS.get(name.rpartition("_")[2], "")) for name, size in sizes.items()
     ]
     return TextTable("options", ("option", "numbers", "meaning"), rows)
+
+
+def _keywords_said(settings: type[Any]) -> list[str]:
+    """Return what is said of keywords: the task's own, and those that it shares with other tasks."""
+    return [documented(one) for one in settings.__mro__ if is_dataclass(one)]
 
 
 def documented(thing: Any) -> str:

@@ -20,6 +20,7 @@ from dq_marine.envs.core.definition import EpisodeContext, Observed, TaskDefinit
 from dq_marine.envs.core.goals import check_goals
 from dq_marine.envs.core.infos import Infos
 from dq_marine.envs.core.observation import Places, places_of
+from dq_marine.envs.core.observed import ages_shown
 from dq_marine.envs.core.perturbations import perturbed
 from dq_marine.envs.core.registry import arrived, task_named, tasks_suiting, travelling
 from dq_marine.envs.core.rewards import checked_extra_rewards
@@ -36,6 +37,7 @@ from dq_marine.task.delays import Delays, with_delays
 from dq_marine.task.episode import EpisodeParameters, episode_task
 from dq_marine.task.period import draws_of_period
 from dq_marine.task.protocol import RewardTerm
+from dq_marine.task.ranging import Schedule, with_schedule
 from dq_marine.task.sensors.build import nested_numbers, shown_numbers
 from dq_marine.task.sensors.observing import with_sensors
 from dq_marine.task.start import Drawn, make_beginning
@@ -125,6 +127,7 @@ class ComposedTask:
             definition, definition.parameters(own, EpisodeContext(chosen.flown, chosen.control_period, {}))
         )
         check_goals(definition, definition.observations(own, chosen.flown))
+        definition.schedule(own, chosen.control_period)
         _check_delays(definition, chosen)
         self.__dict__.update(
             definition=definition,
@@ -183,7 +186,13 @@ class ComposedTask:
     def observations(self) -> tuple[Observed, ...]:
         """What an observation consists of, in its order."""
         own = self.definition.observations(self.task_settings, self.vehicle)
-        return (*own, *(Observed(*shown) for shown in shown_numbers(self.settings.sensor_list)))
+        ages = () if self.ping_schedule is None else (ages_shown(self.ping_schedule),)
+        return (*own, *ages, *(Observed(*shown) for shown in shown_numbers(self.settings.sensor_list)))
+
+    @property
+    def ping_schedule(self) -> Schedule | None:
+        """When the task's range sensor pings and tells; None for always and at once, or without one."""
+        return self.definition.schedule(self.task_settings, self.control_period)
 
     @property
     def observation_bound(self) -> NDArray[np.float32]:
@@ -273,7 +282,8 @@ class ComposedTask:
         delays = Delays(self.settings.action_delay, self.settings.observation_delay)
         self.action_mapping = action_mapping_of(self.scene, delays.action)
         functions = tuple(term.function for term in self.extra_rewards)
-        task = episode_task(self.definition.task_for(self.task_settings), functions)
+        whole = episode_task(self.definition.task_for(self.task_settings), functions)
+        task = with_schedule(whole, self.ping_schedule) if self.ping_schedule else whole
         instruments = tuple(one.instrument for one in self.settings.sensor_list)
         sensed = with_sensors(task, instruments) if instruments else task
         self.task = driven = self.action_mapping.task(sensed)

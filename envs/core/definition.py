@@ -16,6 +16,7 @@ from dq_marine.algebra.vector3 import Vector3
 from dq_marine.checks import finite_number, one_of, shown
 from dq_marine.errors import InvalidInputError, UnknownKeywordError
 from dq_marine.task.protocol import Task
+from dq_marine.task.ranging import Schedule
 from dq_marine.task.things import Beam, Thing
 from dq_marine.task.traffic import Own
 
@@ -127,6 +128,11 @@ def no_beams(parameters: Any, memory: Any) -> Sequence[Beam]:
     return ()
 
 
+def no_schedule(settings: Any, period: float) -> Schedule | None:
+    """Return that range sensors, if there are any, tell in every control period what they meet then."""
+    return None
+
+
 def suits_all(vehicle: Vehicle) -> str | None:
     """Return that any vehicle can do the task."""
     return None
@@ -157,6 +163,8 @@ class TaskDefinition:
         scenery: (parameters, memory) -> what is around the vehicle, to be drawn.
         beams: (parameters, memory) -> the beams of the task's range sensors, with what they tell the agent now, to be
             drawn.
+        schedule: (settings, control period [s]) -> when the task's range sensor pings and tells, of a task whose
+            `observe` returns its readings first; None for always and at once.
         collided: (parameters, memory) -> whether the vehicle has hit something since the start, for evaluations; None
             of a task with nothing to hit.
         meets: (parameters, memory) -> one's own vessel, of a task whose memory has a `Lookout` called `lookout`, into
@@ -190,6 +198,7 @@ class TaskDefinition:
     goal: Callable[[Any, Any], Goal | None] = no_goal
     scenery: Callable[[Any, Any], Sequence[Thing]] = nothing_around
     beams: Callable[[Any, Any], Sequence[Beam]] = no_beams
+    schedule: Callable[[Any, float], Schedule | None] = no_schedule
     collided: Callable[[Any, Any], Any] | None = None
     meets: Callable[[Any, Any], Own] | None = None
     goal_reward: Callable[[Any, Any, Any, Any], float] | None = None

@@ -12,11 +12,13 @@ from dq_marine.charts import SeabedChart, seabed_chart
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.definition import EpisodeContext
 from dq_marine.envs.core.places import starting_depth
+from dq_marine.envs.core.range_settings import PING_KEYWORDS, RangeSettings, checked_ranging, ping_schedule
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_dive_under_way
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.common import SPEED_BOUND
 from dq_marine.task.ground_flight import GroundFlight
 from dq_marine.task.grounds import Grounds, make_charted_ground, make_wavy_ground
+from dq_marine.task.ranging import Schedule
 from dq_marine.task.world.keel import Keel
 
 if TYPE_CHECKING:
@@ -34,7 +36,7 @@ DISTURBED = {"noise": 0.02, "dropout": 0.2, "current": 0.3, "randomise": "defaul
 
 
 OVER_GROUND: dict[str, Any] = {
-    "lasting": ("seabed",),
+    "lasting": ("seabed", *PING_KEYWORDS),
     "unsuitable": unable_to_dive_under_way,
     "vehicle": "remus100",
     "control_period": paced,
@@ -44,12 +46,11 @@ OVER_GROUND: dict[str, Any] = {
 
 
 @dataclass(frozen=True)
-class GroundSettings:
-    """Speed over ground [m/s]; altitude, longest wave of the seabed, reach of beams [vehicle lengths]; slope; errors.
+class GroundSettings(RangeSettings):
+    """Speed over ground [m/s]; altitude, longest wave of the seabed, reach of beams [vehicle lengths]; slope; sonar.
 
-    A speed of None is three fifths of what the vehicle reaches, or can steer at. `slope` bounds that of the seabed.
-    `noise` is the standard deviation of readings [share of the reach], `dropout` the probability that one is lost, and
-    reads as if nothing were there.
+    A speed of None is three fifths of what the vehicle reaches, or can steer at. `slope` bounds that of the seabed. For
+    `noise`, `dropout`, `rate` and `latency` of the beams see `RangeSettings`.
 
     A `seabed` is a chart, or the file of one, see `dq_marine.SeabedChart`; each episode then draws a place on it, and
     `wave` and `slope` mean nothing. None is a seabed of waves that each episode draws.
@@ -60,8 +61,6 @@ class GroundSettings:
     wave: float = 30.0
     slope: float = 0.6
     reach: float = 16.0
-    noise: float = 0.01
-    dropout: float = 0.05
     seabed: Any = None
 
 
@@ -86,9 +85,8 @@ def over_ground(given: Given, vehicle: Vehicle) -> Given:
         wave=finite_number("wave", given.wave, least=5.0, most=1e4),
         slope=finite_number("slope", given.slope, least=0.0, most=1.0),
         reach=finite_number("reach", given.reach, least=2.0 * altitude, most=1e3),
-        noise=finite_number("noise", given.noise, least=0.0, most=1.0),
-        dropout=finite_number("dropout", given.dropout, least=0.0, most=0.9),
         seabed=seabed,
+        **checked_ranging(given),
     )
 
 
@@ -128,6 +126,15 @@ def formulas_by_ground(
         return made(make_charted_ground(*settings.seabed.depths.shape))
 
     return formulas
+
+
+def make_schedule(beams: int) -> Callable[[GroundSettings, float], Schedule | None]:
+    """Return the `schedule` of a task whose beams ping all at once, see `TaskDefinition`."""
+
+    def schedule(settings: GroundSettings, period: float) -> Schedule | None:
+        return ping_schedule(settings, beams, 1, period)
+
+    return schedule
 
 
 def ground_flight(settings: GroundSettings, context: EpisodeContext) -> GroundFlight:

@@ -33,6 +33,7 @@ OPTIONAL = {
     "goal": "goal",
     "scenery": "scenery",
     "beams": "beams",
+    "schedule": "schedule",
     "collided": "collided",
     "goal_reward": "goal_reward",
     "unsuitable": "unsuitable",
@@ -48,8 +49,9 @@ def define_task(
     The file has the functions `start`, `observe`, `measure` and `reward`, and where it needs them `initial_memory`,
     `update_memory`, `terminated`, `succeeded` and `sense`, as `dq_marine.task.protocol.Task` describes them; the named
     tuples `Metrics` and `Rewards`; the functions `parameters` and `observations`, and where it needs them `Settings`,
-    `fitted`, `formulas`, `goal`, `scenery`, `beams`, `collided`, `goal_reward` and `unsuitable`, as `TaskDefinition`
-    describes them. The weights of the reward are the defaults of `Weights`, or of `Rewards` where there is none.
+    `fitted`, `formulas`, `goal`, `scenery`, `beams`, `schedule`, `collided`, `goal_reward` and `unsuitable`, as
+    `TaskDefinition` describes them. The weights of the reward are the defaults of `Weights`, or of `Rewards` where
+    there is none.
 
     Args:
         names: of the file: `globals()`.

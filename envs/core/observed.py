@@ -6,6 +6,8 @@ from dq_marine.envs.core.definition import Observed
 from dq_marine.task.acoustics import SENDERS, UNHEARD
 from dq_marine.task.common import SPEED_BOUND
 from dq_marine.task.lookout import VESSEL_SPEED_BOUND
+from dq_marine.task.ranging import Schedule
+from dq_marine.task.sensors.observing import OLDEST
 
 VELOCITY = (
     Observed("linear_velocity_body", "m/s", 3, SPEED_BOUND, "surge, sway and heave over ground"),
@@ -19,6 +21,18 @@ GOAL_MOTION = (
     Observed("goal_acceleration_body", "m/s^2", 3, SPEED_BOUND, "its acceleration"),
 )
 """What `dq_marine.task.common.observed_curve_motion` gives."""
+
+
+RANGE_AGES = "range_ages"
+"""Name of the part that `ages_shown` returns."""
+
+
+def ages_shown(schedule: Schedule) -> Observed:
+    """Return what is told besides of a range sensor that does not always tell at once."""
+    whose = "of the readings" if schedule.turns == 1 else "of the readings, of a beam each"
+    if 1 < schedule.turns < schedule.beams:
+        whose = f"of the readings, of {schedule.beams // schedule.turns} beams each"
+    return Observed(RANGE_AGES, "s", schedule.turns, OLDEST, f"time since the pings {whose}")
 
 
 def vessels_shown(count: int, far: float) -> tuple[Observed, ...]:

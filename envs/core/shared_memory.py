@@ -8,14 +8,16 @@ from dq_marine.backend.packing import pack, unpack
 from dq_marine.task.action import ActuatedMemory
 from dq_marine.task.delays import Delayed
 from dq_marine.task.episode import EpisodeParameters
+from dq_marine.task.ranging import Ranged
 from dq_marine.task.sensors.observing import Sensed
 from dq_marine.task.start import make_first_report
+from dq_marine.task.things import Beam
 
 if TYPE_CHECKING:
     from dq_marine.envs.core.marine_env import MarineEnv
 
 
-WRAPPINGS = (Sensed, ActuatedMemory, Delayed)
+WRAPPINGS = (Ranged, Sensed, ActuatedMemory, Delayed)
 """Memories that have a task's own as `task`."""
 
 
@@ -30,6 +32,20 @@ def task_memory(env: MarineEnv) -> Any:
     while isinstance(memory, WRAPPINGS):
         memory = memory.task
     return memory
+
+
+def beams_told(env: MarineEnv) -> tuple[Beam, ...]:
+    """Return the beams of an environment's task, with what they tell the agent now."""
+    beams = env.definition.beams(parameters_of(env).task, task_memory(env))
+    memory = unpack(env.blank_memory, env.episode.memory)
+    while isinstance(memory, WRAPPINGS):
+        if isinstance(memory, Ranged):
+            return tuple(
+                beam._replace(distance=told * beam.reach)
+                for beam, told in zip(beams, memory.told, strict=True)
+            )
+        memory = memory.task
+    return tuple(beams)
 
 
 def write_task_memory(env: MarineEnv, memory: Any) -> None:

@@ -7,34 +7,26 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.elementary import exponential
-from dq_marine.algebra.quaternion import rotate, rotate_inverse
+from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select
-from dq_marine.algebra.vector3 import Vector3, bounded, bounded_vector, norm, scale, subtract
+from dq_marine.algebra.vector3 import bounded, bounded_vector, norm, scale, subtract
 from dq_marine.checks import finite_number
+from dq_marine.envs.core import range_settings
 from dq_marine.envs.core.places import starting_depth
+from dq_marine.envs.core.range_settings import RangeSettings
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_travel
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Motion, Observed, define_task
 from dq_marine.task.common import effort, observed_velocity
+from dq_marine.task.passage import Passage, make_passages
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import beams_seen, pillars_seen
 from dq_marine.task.starts import under_way
-from dq_marine.task.world.beams import fan_forward, make_errors, make_fan, make_readings
-from dq_marine.task.world.pillars import (
-    Hull,
-    field_draws,
-    footprint,
-    make_drifted,
-    make_field,
-    make_nearest,
-    pillars_cast,
-)
+from dq_marine.task.world.beams import make_errors, make_fan, make_readings
+from dq_marine.task.world.pillars import Hull, field_draws, pillars_cast
+from dq_marine.task.world.rangefinders import RANGE_FINDERS
 
-ROWS, COLUMNS, BEAMS = 4, 3, 24  # of the field; and how many beams see what is ahead
-PILLARS = ROWS * COLUMNS
-drawn_field, drifted, nearest = make_field(ROWS, COLUMNS), make_drifted(PILLARS), make_nearest(PILLARS)
-fan = make_fan(fan_forward(BEAMS), pillars_cast)
-drawn_errors, readings = make_errors(BEAMS), make_readings(BEAMS)
-EXACT = (0.0,) * BEAMS  # errors before there are readings
+ROWS, COLUMNS = 4, 3  # of the field
+length, drawn_passage, onward = make_passages(ROWS, COLUMNS)
 LEAST_DEPTH = 20.0  # of starts of vehicles that do not float; ten lengths of long ones [m]
 START_TURN, START_DRAWS = math.radians(30.0), 3  # from the course to the goal [rad]
 LOST = 1.5  # episodes end beyond this distance from the goal [of that at the start]
@@ -42,19 +34,20 @@ DISTURBED = {"randomise": "default", "sensors": "auv"}
 
 
 @dataclass(frozen=True)
-class Settings:
-    """Spacing of pillars, reach of beams, radius of arrival [vehicle lengths]; errors of beams; speed of pillars.
+class Settings(RangeSettings):
+    """Spacing of pillars, reach of beams, radius of arrival [vehicle lengths]; speed of pillars; range sensor.
 
-    Every other pillar goes at up to `pillar_speed` [share of the speed of journeys]. `noise` is the standard deviation
-    of readings [share of the reach], `dropout` the probability that one is lost, and reads as if nothing were there.
+    Every other pillar goes at up to `pillar_speed` [share of the speed of journeys]. The `range_finder` is "multibeam",
+    a sonar that sees what is ahead, "scanning", one whose head turns from beam to beam with each ping, or "lidar", of
+    vessels that float, which sees all round. For `noise`, `dropout`, `rate` and `latency` see `RangeSettings`.
     """
 
     spacing: float = 6.0
     pillar_speed: float = 0.0
     reach: float = 8.0
-    noise: float = 0.01
     dropout: float = 0.02
     arrival_radius: float = 1.0
+    range_finder: str = "multibeam"
 
 
 def fitted(given: Settings, vehicle: Any) -> Settings:
@@ -64,14 +57,17 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
         spacing=finite_number("spacing", given.spacing, least=2.0, most=1e2),
         pillar_speed=finite_number("pillar_speed", given.pillar_speed, least=0.0, most=2.0),
         reach=finite_number("reach", given.reach, least=1.0, most=1e2),
-        noise=finite_number("noise", given.noise, least=0.0, most=1.0),
-        dropout=finite_number("dropout", given.dropout, least=0.0, most=0.9),
         arrival_radius=finite_number("arrival_radius", given.arrival_radius, above=0.0, most=1e2),
+        range_finder=range_settings.checked_finder(given.range_finder, vehicle),
+        **range_settings.checked_ranging(given),
     )
 
 
 class Parameters(NamedTuple):
-    """Spacing, depth [m]; speeds of vehicle and pillars [m/s]; reach, noise, dropout, arrival [m]; hull; period [s]."""
+    """Spacing, depth [m]; speeds of vehicle and pillars [m/s]; reach, noise, dropout, arrival [m]; hull; period [s].
+
+    And which of the range sensors it is.
+    """
 
     spacing: float
     depth: float
@@ -83,6 +79,7 @@ class Parameters(NamedTuple):
     arrival_radius: float
     hull: Hull
     period: float
+    finder: float
 
 
 class Metrics(NamedTuple):
@@ -94,14 +91,11 @@ class Metrics(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """Goal in NED, pillars; ranges of the beams, errors of their readings, what the last period gained [m]; metrics."""
+    """Where goal, pillars and vehicle are; ranges of the beams, errors of their readings [m]."""
 
-    goal_ned: Vector3
-    pillars: Any
+    passage: Passage
     ranges: Any
     errors: Any
-    gained: float
-    metrics: Metrics
 
 
 class Rewards(NamedTuple):
@@ -128,6 +122,7 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
         settings.arrival_radius * size.length,
         Hull(0.5 * size.length, 0.5 * size.width),
         context.control_period,
+        float(list(RANGE_FINDERS).index(settings.range_finder)),
     )
 
 
@@ -137,56 +132,54 @@ def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     return under_way((0.0, 0.0, own.depth), heading, own.speed * (0.5 + 0.5 * uniforms[2]))
 
 
-def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
-    """Return a new field, a goal as far beyond it as the start is before it, and what the beams meet."""
-    course, distance = 2.0 * math.pi * uniforms[0], (ROWS + 1.0) * own.spacing
-    place = (distance * math.cos(course), distance * math.sin(course), own.depth)
-    pillars = drawn_field(course, own.spacing, own.pillar_speed, uniforms, START_DRAWS)
-    closest = nearest(pillars, footprint(begun.position_ned, begun.attitude), own.hull)
-    ranges = fan(pillars, begun.position_ned, begun.attitude, own.reach)
-    return Memory(place, pillars, ranges, EXACT, 0.0, Metrics(distance, closest.clearance, 0.0))
+def make_formulas(range_finder: str) -> dict[str, Any]:
+    """Return the formulas that are about a range sensor, by their names."""
+    finder = RANGE_FINDERS[range_finder]
+    fan, count = make_fan(finder.fan, pillars_cast), finder.beams
+    drawn_errors, readings, exact = make_errors(count), make_readings(count), (0.0,) * count
+
+    def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
+        """Return a new passage, and what the beams meet."""
+        field = (own.spacing, own.depth, own.pillar_speed)
+        passage = drawn_passage(*field, own.hull, begun, uniforms, START_DRAWS)
+        return Memory(passage, fan(passage.pillars, begun.position_ned, begun.attitude, own.reach), exact)
+
+    def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
+        """Return the memory with new errors of the beams' readings."""
+        return Memory(memory.passage, memory.ranges, drawn_errors(own.noise, own.dropout, uniforms))
+
+    def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
+        """Return where pillars, vehicle and goal are one control period on, and what the beams meet."""
+        passage = onward(memory.passage, own.hull, motion, own.period)
+        ranges = fan(passage.pillars, motion.position_ned, motion.attitude, own.reach)
+        return Memory(passage, ranges, memory.errors)
+
+    def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
+        """Return what `observations` lists."""
+        to_goal, far = subtract(memory.passage.goal_ned, measured.position_ned), 2.0 * length(own.spacing)
+        direction = scale(1.0 / max(norm(to_goal), 1e-6), to_goal)
+        return (
+            readings(memory.ranges, memory.errors, own.reach),
+            bounded_vector(rotate_inverse(measured.attitude, direction), 1.0),
+            bounded(norm(to_goal), far),
+            bounded_vector(rotate_inverse(measured.attitude, (0.0, 0.0, 1.0)), 1.0),
+            observed_velocity(measured),
+        )
+
+    made = {"initial_memory": initial_memory, "sense": sense, "sense_draws": count}
+    return made | {"update_memory": update_memory, "observe": observe}
 
 
-def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
-    """Return the memory with new errors of the beams' readings."""
-    errors = drawn_errors(own.noise, own.dropout, uniforms)
-    return Memory(memory.goal_ned, memory.pillars, memory.ranges, errors, memory.gained, memory.metrics)
-
-
-def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:
-    """Return where pillars, vehicle and goal are one control period on, and what the beams meet."""
-    pillars = drifted(memory.pillars, own.period)
-    closest = nearest(pillars, footprint(motion.position_ned, motion.attitude), own.hull)
-    over_ground = rotate(motion.attitude, motion.velocity.linear)
-    relative = subtract(over_ground, (closest.north_velocity, closest.east_velocity, 0.0))
-    distance = norm(subtract(memory.goal_ned, motion.position_ned))
-    impact_speed = select(closest.clearance < 0.0, norm(relative), 0.0)
-    ranges = fan(pillars, motion.position_ned, motion.attitude, own.reach)
-    gained = memory.metrics.goal_distance - distance
-    metrics = Metrics(distance, closest.clearance, impact_speed)
-    return Memory(memory.goal_ned, pillars, ranges, memory.errors, gained, metrics)
-
-
-def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
-    """Return what `observations` lists."""
-    to_goal, far = subtract(memory.goal_ned, measured.position_ned), 2.0 * (ROWS + 1.0) * own.spacing
-    direction = scale(1.0 / max(norm(to_goal), 1e-6), to_goal)
-    return (
-        readings(memory.ranges, memory.errors, own.reach),
-        bounded_vector(rotate_inverse(measured.attitude, direction), 1.0),
-        bounded(norm(to_goal), far),
-        bounded_vector(rotate_inverse(measured.attitude, (0.0, 0.0, 1.0)), 1.0),
-        observed_velocity(measured),
-    )
+formulas = range_settings.formulas_by_finder(make_formulas)
+initial_memory, sense, sense_draws, update_memory, observe = formulas(Settings()).values()
 
 
 def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     """Return what an observation consists of."""
-    far = 2.0 * (ROWS + 1.0) * settings.spacing * vehicle.dimensions.length
+    beams = RANGE_FINDERS[settings.range_finder].beams
+    far = 2.0 * length(settings.spacing * vehicle.dimensions.length)
     return (
-        Observed(
-            "beam_readings", "", BEAMS, 1.0, "free way over the reach, from port round the bow to starboard"
-        ),
+        Observed("beam_readings", "", beams, 1.0, "free way over the reach, from port to starboard"),
         Observed("goal_direction_body", "", 3, 1.0, "where the goal is, seen from the vehicle"),
         Observed("goal_distance", "m", 1, far, "how far it is"),
         Observed("down_body", "", 3, 1.0, "where down is"),
@@ -196,15 +189,15 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
 
 def measure(own: Parameters, memory: Memory, motion: Motion) -> Metrics:
     """Return how far the goal and the nearest pillar are, and how hard that was hit."""
-    return memory.metrics
+    return Metrics(memory.passage.distance, memory.passage.clearance, memory.passage.impact_speed)
 
 
 def reward(own: Parameters, weights: Rewards, now: Situation) -> Rewards:
     """Return the terms of the reward."""
-    length, clearance = 2.0 * own.hull.half_length, now.metrics.clearance
+    size, clearance = 2.0 * own.hull.half_length, now.metrics.clearance
     return Rewards(
-        weights.progress * now.memory.gained / length,
-        -(weights.room * exponential(-2.0 * max(clearance, 0.0) / length)),
+        weights.progress * now.memory.passage.gained / size,
+        -(weights.room * exponential(-2.0 * max(clearance, 0.0) / size)),
         weights.arrival * select(succeeded(own, now), 1.0, 0.0),
         -(weights.collision * select(clearance < 0.0, 1.0, 0.0)),
         effort(weights.effort, now),
@@ -218,13 +211,20 @@ def succeeded(own: Parameters, now: Situation) -> Any:
 
 def terminated(own: Parameters, now: Situation) -> Any:
     """Whether the goal is reached, a pillar is hit, or the vehicle has gone astray."""
-    far = now.metrics.goal_distance > LOST * (ROWS + 1.0) * own.spacing
+    far = now.metrics.goal_distance > LOST * length(own.spacing)
     return succeeded(own, now) | (now.metrics.clearance < 0.0) | far
 
 
-def goal(own: Parameters, memory: Memory) -> Goal:
-    """Return the goal, for drawing."""
-    return Goal(memory.goal_ned)
+def schedule(settings: Any, period: float) -> Any:
+    """Return when the range sensor pings and tells."""
+    finder = RANGE_FINDERS[settings.range_finder]
+    return range_settings.ping_schedule(settings, finder.beams, finder.turns, period)
+
+
+def beams(own: Parameters, memory: Memory) -> Any:
+    """Return what the beams tell, for drawing."""
+    fan, readings = list(RANGE_FINDERS.values())[int(own.finder)].fan, make_readings(len(memory.ranges))
+    return beams_seen(fan, readings, memory.ranges, memory.errors, own.reach)
 
 
 define_task(
@@ -232,12 +232,11 @@ define_task(
     id="dq_marine/ObstacleAvoidance-v0",
     summary="Reach a goal beyond a field of pillars that beams tell of, in an unseen current.",
     draws=START_DRAWS + field_draws(ROWS, COLUMNS),
-    sense_draws=BEAMS,
-    scenery=lambda own, memory: pillars_seen(memory.pillars, own.depth, 2.0 * own.hull.half_length),
-    beams=lambda own, memory: beams_seen(
-        fan_forward(BEAMS), readings, memory.ranges, memory.errors, own.reach
-    ),
-    collided=lambda own, memory: memory.metrics.clearance < 0.0,
+    sense_draws=sense_draws,
+    lasting=("range_finder", *range_settings.PING_KEYWORDS),
+    goal=lambda own, memory: Goal(memory.passage.goal_ned),
+    scenery=lambda own, memory: pillars_seen(memory.passage.pillars, own.depth, 2.0 * own.hull.half_length),
+    collided=lambda own, memory: memory.passage.clearance < 0.0,
     units={"goal_distance": "m", "clearance": "m", "impact_speed": "m/s"},
     levels={
         "easy": {"spacing": 8.0, "noise": 0.0, "dropout": 0.0, "current": 0.0},

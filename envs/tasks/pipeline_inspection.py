@@ -35,7 +35,6 @@ WAVES, SPANS, BEAMS = 4, 4, 9  # of the seabed; of the pipe, about a leg each; t
 AHEAD, ASIDE, ANGLE = 1.0, 1.5, math.radians(60.0)  # of the bow, what the detector sees [altitudes, rad]
 START_OFF, START_TURN, START_DRAWS = 0.2, math.radians(15.0), 4  # from place [altitudes] and course [rad]
 ACQUIRED, LOST = 1.0, 2.0  # span from which on errors count; episodes end farther off than this [altitudes]
-UNITS = {"course": "rad", "impact": "m/s"}  # of metrics, else m
 TOLERANCE, LEAST, ASKEW = 0.07, 0.1, math.radians(5.0)  # success: mean errors below [altitudes or m; rad]
 
 
@@ -239,8 +238,9 @@ define_task(
     id="dq_marine/PipelineInspection-v0",
     summary="Follow a pipe on an uneven seabed by sonar and a detector, in an unseen current.",
     draws=START_DRAWS + winding_draws(SPANS) + ground_draws(WAVES),
+    schedule=ground_settings.make_schedule(BEAMS),
     sense_draws=BEAMS + 3,
-    units={name: UNITS.get(name.split("_")[-2:][0], "m") for name in Metrics._fields[:-1]},
+    units={n: "rad" if "course" in n else "m/s" if "speed" in n else "m" for n in Metrics._fields[:-1]},
     beams=lambda own, memory: beams_seen(
         fan_across(BEAMS), readings, memory.shown.ranges, memory.errors.ranges, own.flight.reach
     ),

@@ -239,6 +239,7 @@ define_task(
     id="dq_marine/TerrainFollowing-v0",
     summary="Keep an altitude over an uneven seabed that beams tell of, along a track, in an unseen current.",
     draws=START_DRAWS + ground_draws(WAVES),
+    schedule=ground_settings.make_schedule(BEAMS),
     sense_draws=BEAMS,
     units={name: "m/s" if "speed" in name else "m" for name in Metrics._fields[:-1]},
     tolerances={"altitude_error": LEAST},

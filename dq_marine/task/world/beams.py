@@ -36,6 +36,11 @@ def fan_bearings(beams: int, spread: float) -> tuple[float, ...]:
     return tuple(spread * (i / (beams - 1) - 0.5) for i in range(beams))
 
 
+def round_bearings(beams: int) -> tuple[float, ...]:
+    """Return the bearings of beams from the bow, evenly all round, from that astern over port to starboard [rad]."""
+    return tuple(math.tau * (i / beams - 0.5) for i in range(beams))
+
+
 def ground_bearings(beams: int) -> tuple[float, ...]:
     """Return the bearings of beams that see the ground ahead, evenly down to the last, an altimeter's [rad].
 
@@ -62,6 +67,11 @@ class Fan(NamedTuple):
 def fan_forward(beams: int) -> Fan:
     """Return the fan that sees what is round the bow, from port to starboard within `FORWARD`."""
     return Fan(fan_bearings(beams, FORWARD), BOW, STARBOARD)
+
+
+def fan_round(beams: int) -> Fan:
+    """Return the fan that sees what is all round, from astern over port to starboard."""
+    return Fan(round_bearings(beams), BOW, STARBOARD)
 
 
 def fan_ahead(beams: int) -> Fan:

@@ -13,7 +13,7 @@ from dq_marine.viewer.placement import Placement, quaternion_wxyz
 FAR = 20.0  # vehicle lengths: through most of the field
 QUIET = {"noise": 0.0, "dropout": 0.0}
 COUNTS = {
-    "ObstacleAvoidance": obstacle_avoidance.BEAMS,
+    "ObstacleAvoidance": obstacle_avoidance.sense_draws,
     "TerrainFollowing": terrain_following.BEAMS,
     "PipelineInspection": pipeline_inspection.BEAMS,
 }
@@ -48,7 +48,7 @@ def test_marks_lie_on_pillars():
     env = made("ObstacleAvoidance", reach=FAR, **QUIET)
     ends = ends_ned(after_some_steps(env))
     assert len(ends) > 2
-    pillars = memory_of(env).pillars
+    pillars = memory_of(env).passage.pillars
     for north, east, _ in ends:
         nearest = min(np.hypot(north - one.north, east - one.east) - one.radius for one in pillars)
         assert nearest == pytest.approx(0.0, abs=TOLERANCE)

@@ -10,11 +10,13 @@ from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.controllers.reading import parts_reader
 from dq_marine.backend.packing import unpack
 from dq_marine.envs.core.suitability import cruising_speed
-from dq_marine.envs.tasks.obstacle_avoidance import BEAMS, ROWS
+from dq_marine.envs.tasks.obstacle_avoidance import ROWS
 from dq_marine.errors import InvalidInputError
+from dq_marine.task.world.rangefinders import RANGE_FINDERS
 
 ID = "dq_marine/ObstacleAvoidance-v0"
 SEEDS = range(6)
+BEAMS = RANGE_FINDERS["multibeam"].beams
 
 
 def made(**keywords):
@@ -22,7 +24,7 @@ def made(**keywords):
 
 
 def pillars_of(env):
-    return unpack(env.blank_memory, env.get_state()["memory"]).pillars
+    return unpack(env.blank_memory, env.get_state()["memory"]).passage.pillars
 
 
 def flown(env, seed, blind=False):
