@@ -11,7 +11,7 @@ from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import Vector3, norm, subtract
 from dq_marine.integrator.body import Motion
 from dq_marine.task.protocol import Start
-from dq_marine.task.world.pillars import Hull, footprint, make_drifted, make_field, make_nearest
+from dq_marine.task.world.pillars import FieldPlan, Hull, footprint, make_drifted, make_field, make_nearest
 
 
 class Passage(NamedTuple):
@@ -39,13 +39,13 @@ class Passages(NamedTuple):
 
     Attributes:
         length: (spacing [m]) -> distance from the start to the goal [m].
-        drawn: (spacing [m], depth [m], speed of pillars [m/s], hull, start, uniforms, index of the field's) -> passage;
-            the first uniform number gives its course.
+        drawn: (plan of the field, depth [m], hull, start, uniforms, index of the field's) -> passage; the first uniform
+            number gives its course.
         onward: (passage, hull, motion, period [s]) -> passage a period on.
     """
 
     length: Callable[[float], float]
-    drawn: Callable[[float, float, float, Hull, Start, tuple[float, ...], int], Passage]
+    drawn: Callable[[FieldPlan, float, Hull, Start, tuple[float, ...], int], Passage]
     onward: Callable[[Passage, Hull, Motion, float], Passage]
 
 
@@ -58,17 +58,11 @@ def make_passages(rows: int, columns: int) -> Passages:
         return (rows + 1.0) * spacing
 
     def drawn(
-        spacing: float,
-        depth: float,
-        speed: float,
-        hull: Hull,
-        begun: Start,
-        uniforms: tuple[float, ...],
-        index: int,
+        plan: FieldPlan, depth: float, hull: Hull, begun: Start, uniforms: tuple[float, ...], index: int
     ) -> Passage:
-        course, distance = 2.0 * math.pi * uniforms[0], length(spacing)
+        course, distance = 2.0 * math.pi * uniforms[0], length(plan.spacing)
         goal = (distance * math.cos(course), distance * math.sin(course), depth)
-        field = drawn_field(course, spacing, speed, uniforms, index)
+        field = drawn_field(course, plan, uniforms, index)
         closest = nearest(field, footprint(begun.position_ned, begun.attitude), hull)
         return Passage(goal, field, 0.0, distance, closest.clearance, 0.0)
 

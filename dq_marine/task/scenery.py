@@ -13,10 +13,22 @@ from dq_marine.task.acoustics import Sender
 from dq_marine.task.berths import Berth, Harbour, from_berth
 from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
-from dq_marine.task.things import Beam, Block, Column, Cone, Line, Relief, ShipHull, Thing, TorpedoHull, Tube
+from dq_marine.task.things import (
+    Beam,
+    Block,
+    Cage,
+    Column,
+    Cone,
+    Line,
+    Relief,
+    ShipHull,
+    Thing,
+    TorpedoHull,
+    Tube,
+)
 from dq_marine.task.traffic import OtherVessel
 from dq_marine.task.world.beams import Fan, directions_of
-from dq_marine.task.world.pillars import Pillar
+from dq_marine.task.world.pillars import Layout, Pillar
 
 BEAM = 0.16
 """Of other vessels, over their length, which alone is known of them."""
@@ -34,9 +46,11 @@ SAMPLES = 49
 """Of the ground, along each axis."""
 
 
-def pillars_seen(pillars: Sequence[Pillar], depth: float, length: float) -> list[Thing]:
-    """Return pillars to draw, from the surface to as far below the depth of a vehicle of a length [m]."""
+def field_seen(pillars: Sequence[Pillar], layout: Layout, depth: float, length: float) -> list[Thing]:
+    """Return pillars or cages to draw, from the surface to as far below the depth of a vehicle of a length [m]."""
     height = 2.0 * max(depth, length)
+    if layout.netted:  # its collar floats
+        return [Thing(Cage(cage.radius, height), (cage.north, cage.east, 0.5 * height)) for cage in pillars]
     return [
         Thing(Column(pillar.radius, height), (pillar.north, pillar.east, max(depth, 0.25 * height)))
         for pillar in pillars

@@ -21,6 +21,13 @@ class Column(NamedTuple):
     height: float
 
 
+class Cage(NamedTuple):
+    """A standing cylinder of net about its middle, with a floating collar at its top: radius and height [m]."""
+
+    radius: float
+    height: float
+
+
 class ShipHull(NamedTuple):
     """Another vessel, its bow ahead, its waterline at its origin: length and width [m]."""
 
@@ -85,7 +92,7 @@ class Relief(NamedTuple):
     depths: tuple[float, ...]
 
 
-Form = Column | ShipHull | TorpedoHull | Cone | Block | Line | Tube | Sphere | Faces | Relief
+Form = Column | Cage | ShipHull | TorpedoHull | Cone | Block | Line | Tube | Sphere | Faces | Relief
 
 
 class Thing(NamedTuple):

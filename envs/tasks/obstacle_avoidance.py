@@ -1,4 +1,4 @@
-"""Obstacle avoidance: reach a goal beyond a field of pillars that only beams tell of, in an unseen current."""
+"""Obstacle avoidance: reach a goal beyond a field of pillars or net cages that only beams tell of, in a current."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dq_marine.algebra.elementary import exponential
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import bounded, bounded_vector, norm, scale, subtract
-from dq_marine.checks import finite_number
+from dq_marine.checks import finite_number, one_of
 from dq_marine.envs.core import range_settings
 from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.range_settings import RangeSettings
@@ -19,10 +19,10 @@ from dq_marine.envs.kit import VELOCITY, EpisodeContext, Goal, Motion, Observed,
 from dq_marine.task.common import effort, observed_velocity
 from dq_marine.task.passage import Passage, make_passages
 from dq_marine.task.protocol import Situation, Start
-from dq_marine.task.scenery import beams_seen, pillars_seen
+from dq_marine.task.scenery import beams_seen, field_seen
 from dq_marine.task.starts import under_way
 from dq_marine.task.world.beams import make_errors, make_fan, make_readings
-from dq_marine.task.world.pillars import Hull, field_draws, pillars_cast
+from dq_marine.task.world.pillars import LAYOUTS, FieldPlan, Hull, field_draws, pillars_cast
 from dq_marine.task.world.rangefinders import RANGE_FINDERS
 
 ROWS, COLUMNS = 4, 3  # of the field
@@ -37,11 +37,13 @@ DISTURBED = {"randomise": "default", "sensors": "auv"}
 class Settings(RangeSettings):
     """Spacing of pillars, reach of beams, radius of arrival [vehicle lengths]; speed of pillars; range sensor.
 
-    Every other pillar goes at up to `pillar_speed` [share of the speed of journeys]. The `range_finder` is "multibeam",
+    The `obstacles` are "pillars" or "cages", wider, with nets. Every other one of them goes at up to `pillar_speed`
+    [share of the speed of journeys]. The `range_finder` is "multibeam",
     a sonar that sees what is ahead, "scanning", one whose head turns from beam to beam with each ping, or "lidar", of
     vessels that float, which sees all round. For `noise`, `dropout`, `rate` and `latency` see `RangeSettings`.
     """
 
+    obstacles: str = "pillars"
     spacing: float = 6.0
     pillar_speed: float = 0.0
     reach: float = 8.0
@@ -54,6 +56,7 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
     """Return the settings, checked."""
     return replace(
         given,
+        obstacles=one_of("obstacles", given.obstacles, LAYOUTS),
         spacing=finite_number("spacing", given.spacing, least=2.0, most=1e2),
         pillar_speed=finite_number("pillar_speed", given.pillar_speed, least=0.0, most=2.0),
         reach=finite_number("reach", given.reach, least=1.0, most=1e2),
@@ -64,15 +67,11 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
 
 
 class Parameters(NamedTuple):
-    """Spacing, depth [m]; speeds of vehicle and pillars [m/s]; reach, noise, dropout, arrival [m]; hull; period [s].
+    """Field; depth [m], speed [m/s]; reach, noise [m], dropout, arrival [m]; hull; period [s]; which range sensor."""
 
-    And which of the range sensors it is.
-    """
-
-    spacing: float
+    field: FieldPlan
     depth: float
     speed: float
-    pillar_speed: float
     reach: float
     noise: float
     dropout: float
@@ -112,10 +111,9 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
     """Return the numbers of an episode."""
     vehicle, size, speed = context.vehicle, context.vehicle.dimensions, cruising_speed(context.vehicle)
     return Parameters(
-        settings.spacing * size.length,
+        FieldPlan(settings.spacing * size.length, speed * settings.pillar_speed, LAYOUTS[settings.obstacles]),
         starting_depth(vehicle, LEAST_DEPTH),
         speed,
-        speed * settings.pillar_speed,
         settings.reach * size.length,
         settings.noise * settings.reach * size.length,
         settings.dropout,
@@ -140,8 +138,7 @@ def make_formulas(range_finder: str) -> dict[str, Any]:
 
     def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
         """Return a new passage, and what the beams meet."""
-        field = (own.spacing, own.depth, own.pillar_speed)
-        passage = drawn_passage(*field, own.hull, begun, uniforms, START_DRAWS)
+        passage = drawn_passage(own.field, own.depth, own.hull, begun, uniforms, START_DRAWS)
         return Memory(passage, fan(passage.pillars, begun.position_ned, begun.attitude, own.reach), exact)
 
     def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
@@ -156,7 +153,10 @@ def make_formulas(range_finder: str) -> dict[str, Any]:
 
     def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
         """Return what `observations` lists."""
-        to_goal, far = subtract(memory.passage.goal_ned, measured.position_ned), 2.0 * length(own.spacing)
+        to_goal, far = (
+            subtract(memory.passage.goal_ned, measured.position_ned),
+            2.0 * length(own.field.spacing),
+        )
         direction = scale(1.0 / max(norm(to_goal), 1e-6), to_goal)
         return (
             readings(memory.ranges, memory.errors, own.reach),
@@ -211,7 +211,7 @@ def succeeded(own: Parameters, now: Situation) -> Any:
 
 def terminated(own: Parameters, now: Situation) -> Any:
     """Whether the goal is reached, a pillar is hit, or the vehicle has gone astray."""
-    far = now.metrics.goal_distance > LOST * length(own.spacing)
+    far = now.metrics.goal_distance > LOST * length(own.field.spacing)
     return succeeded(own, now) | (now.metrics.clearance < 0.0) | far
 
 
@@ -235,7 +235,9 @@ define_task(
     sense_draws=sense_draws,
     lasting=("range_finder", *range_settings.PING_KEYWORDS),
     goal=lambda own, memory: Goal(memory.passage.goal_ned),
-    scenery=lambda own, memory: pillars_seen(memory.passage.pillars, own.depth, 2.0 * own.hull.half_length),
+    scenery=lambda own, memory: field_seen(
+        memory.passage.pillars, own.field.layout, own.depth, 2.0 * own.hull.half_length
+    ),
     collided=lambda own, memory: memory.passage.clearance < 0.0,
     units={"goal_distance": "m", "clearance": "m", "impact_speed": "m/s"},
     levels={

@@ -12,23 +12,24 @@ from dq_marine.task.docks import Dock, Funnel, heave_of
 from dq_marine.task.harmonics import Curve, curve_point
 from dq_marine.task.scenery import (
     dock_seen,
+    field_seen,
     formation_seen,
     harbour_seen,
     harmonics_seen,
     line_seen,
-    pillars_seen,
     vessels_seen,
 )
 from dq_marine.task.traffic import OtherVessel
-from dq_marine.task.world.pillars import Hull, Pillar
+from dq_marine.task.world.pillars import LAYOUTS, Hull, Pillar
 
 ZERO = (0.0, 0.0, 0.0)
 
 
+@pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS)
 @pytest.mark.parametrize(("depth", "length"), [(20.0, 0.5), (0.0, 320.0)], ids=["under water", "afloat"])
-def test_pillars_stand_at_their_places_and_through_the_vehicles_depth(depth, length):
+def test_pillars_stand_at_their_places_and_through_the_vehicles_depth(depth, length, layout):
     pillars = [Pillar(1.0, 2.0, 0.5, 0.1, 0.0), Pillar(-7.0, 3.0, 0.25, 0.0, 0.0)]
-    for pillar, thing in zip(pillars, pillars_seen(pillars, depth, length), strict=True):
+    for pillar, thing in zip(pillars, field_seen(pillars, layout, depth, length), strict=True):
         assert thing.position_ned[:2] == (pillar.north, pillar.east)
         assert thing.form.radius == pillar.radius
         half = 0.5 * thing.form.height

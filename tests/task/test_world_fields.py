@@ -25,8 +25,8 @@ from dq_marine.task.world.beams import (
 )
 from dq_marine.task.world.keel import Keel, make_keel_over
 from dq_marine.task.world.pillars import (
-    SCATTER,
-    THICKNESS,
+    LAYOUTS,
+    FieldPlan,
     Hull,
     clearance,
     field_draws,
@@ -55,8 +55,9 @@ def uniforms(seed, count):
     return tuple(np.random.default_rng(seed).random(count).tolist())
 
 
-def field(seed, course=0.3, speed=0.5):
-    return FIELD(course, SPACING, speed, uniforms(seed, field_draws(ROWS, COLUMNS)), 0)
+def field(seed, course=0.3, speed=0.5, stands="pillars"):
+    plan = FieldPlan(SPACING, speed, LAYOUTS[stands])
+    return FIELD(course, plan, uniforms(seed, field_draws(ROWS, COLUMNS)), 0)
 
 
 def ground(seed):
@@ -122,17 +123,17 @@ def test_a_beam_that_meets_nothing_reads_so_whatever_its_error():
     assert make_readings(2)((REACH, 0.5 * REACH), (-0.3, -0.3), REACH) == (1.0, 0.5 - 0.3 / REACH)
 
 
-@given(seed=seeds, course=angles)
-def test_pillars_stand_in_their_rows_with_room_between_them(seed, course):
-    pillars = turned(field(seed, course), -course)
+@given(seed=seeds, course=angles, stands=st.sampled_from(list(LAYOUTS)))
+def test_pillars_and_cages_stand_in_their_rows_with_room_between_them(seed, course, stands):
+    pillars, layout = turned(field(seed, course, stands=stands), -course), LAYOUTS[stands]
     for i, pillar in enumerate(pillars):
         row = SPACING * (1.0 + i // COLUMNS)
-        assert abs(pillar.north - row) <= SCATTER[0] * SPACING + 1e-9
-        assert THICKNESS[0] * SPACING <= pillar.radius <= THICKNESS[1] * SPACING
+        assert abs(pillar.north - row) <= layout.off_row * SPACING + 1e-9
+        assert layout.thinnest * SPACING <= pillar.radius <= layout.thickest * SPACING
         for other in pillars[:i]:
             room = math.hypot(pillar.north - other.north, pillar.east - other.east)
             assert room - pillar.radius - other.radius >= SPACING * (
-                1.0 - 2.0 * max(SCATTER) - 2.0 * THICKNESS[1] - 1e-9
+                1.0 - 2.0 * max(layout.off_row, layout.off_place) - 2.0 * layout.thickest - 1e-9
             )
 
 

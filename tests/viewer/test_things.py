@@ -12,6 +12,7 @@ from viewer.samples import ROV, snapshot, yawed
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.things import (
     Block,
+    Cage,
     Column,
     Cone,
     Faces,
@@ -36,6 +37,7 @@ GRID = tuple(np.linspace(-20.0, 20.0, 9))
 HILLY = Relief(GRID, GRID, tuple(10.0 + 0.2 * n - 0.1 * e + math.sin(n) for n in GRID for e in GRID))
 FORMS = {
     "column": Column(0.5, 8.0),
+    "cage": Cage(12.0, 20.0),
     "ship": ShipHull(30.0, 5.0),
     "block": Block(30.0, 5.0, 2.0),
     "torpedo": TorpedoHull(1.3, 0.2),

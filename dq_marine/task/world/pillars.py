@@ -1,9 +1,10 @@
-"""Fields of vertical pillars, still or adrift: where they stand, how far the nearest is, and what a beam meets."""
+"""Fields of vertical pillars or net cages, still or adrift: where they stand, what is nearest, what a beam meets."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.level import Level, level_bow, level_cross, level_dot, level_length, level_turned
@@ -15,11 +16,40 @@ from dq_marine.task.world.rays import ray_to_pillar
 PILLAR_DRAWS = 5
 """Uniform random numbers that a pillar of a field takes; and each row takes one more."""
 
-THICKNESS = (0.08, 0.2)
-"""Radii of the pillars of a field, over the spacing."""
 
-SCATTER = (0.15, 0.1)
-"""Farthest that a pillar of a field is from its row and from its place in it, over the spacing."""
+class Layout(NamedTuple):
+    """What stands in a field, in shares of the spacing.
+
+    Attributes:
+        thinnest: least radius.
+        thickest: largest radius.
+        off_row: the farthest that one is from its row.
+        off_place: the farthest that one is from its place in the row.
+        netted: 1 for net cages, 0 for pillars, which look otherwise.
+    """
+
+    thinnest: float
+    thickest: float
+    off_row: float
+    off_place: float
+    netted: float
+
+
+LAYOUTS: Mapping[str, Layout] = MappingProxyType(
+    {
+        "pillars": Layout(0.08, 0.2, 0.15, 0.1, 0.0),
+        "cages": Layout(0.2, 0.25, 0.05, 0.05, 1.0),
+    }
+)
+"""Of fields, by what stands in them: cages are wide, and stand in order."""
+
+
+class FieldPlan(NamedTuple):
+    """A field to be drawn: spacing of rows and columns [m], largest speed of pillars [m/s], and their layout."""
+
+    spacing: float
+    speed: float
+    layout: Layout
 
 
 class Pillar(NamedTuple):
@@ -116,8 +146,8 @@ def field_draws(rows: int, columns: int) -> int:
     return rows * (1 + columns * PILLAR_DRAWS)
 
 
-def make_field(rows: int, columns: int) -> Callable[[float, float, float, tuple[float, ...], int], Any]:
-    """Return (course [rad], spacing [m], speed [m/s], uniforms, index) -> pillars in rows across a course.
+def make_field(rows: int, columns: int) -> Callable[[float, FieldPlan, tuple[float, ...], int], Any]:
+    """Return (course [rad], plan, uniforms, index) -> pillars in rows across a course.
 
     The rows are a spacing apart, the first a spacing from the origin. Each is shifted along itself by up to half a
     spacing, and its pillars, a spacing apart, are scattered. Every other pillar goes at up to the speed, any way.
@@ -130,14 +160,13 @@ def _make_field_from(rows: int, columns: int, number: int) -> Callable[..., Any]
     along, across, moving = row + 1.0, column - 0.5 * (columns - 1), float(number % 2)
     shift, own = row * (1 + columns * PILLAR_DRAWS), 1 + column * PILLAR_DRAWS
 
-    def one(course: float, spacing: float, speed: float, uniforms: tuple[float, ...], index: int) -> Any:
-        at = index + shift + own
-        ahead = spacing * (along + SCATTER[0] * (2.0 * uniforms[at] - 1.0))
-        aside = spacing * (
-            across + uniforms[index + shift] - 0.5 + SCATTER[1] * (2.0 * uniforms[at + 1] - 1.0)
-        )
-        radius = spacing * (THICKNESS[0] + (THICKNESS[1] - THICKNESS[0]) * uniforms[at + 2])
-        way, pace = 2.0 * math.pi * uniforms[at + 3], moving * speed * uniforms[at + 4]
+    def one(course: float, plan: FieldPlan, uniforms: tuple[float, ...], index: int) -> Any:
+        at, spacing, layout = index + shift + own, plan.spacing, plan.layout
+        ahead = spacing * (along + layout.off_row * (2.0 * uniforms[at] - 1.0))
+        off_place = layout.off_place * (2.0 * uniforms[at + 1] - 1.0)
+        aside = spacing * (across + uniforms[index + shift] - 0.5 + off_place)
+        radius = spacing * (layout.thinnest + (layout.thickest - layout.thinnest) * uniforms[at + 2])
+        way, pace = 2.0 * math.pi * uniforms[at + 3], moving * plan.speed * uniforms[at + 4]
         north, east = level_turned((ahead, aside), course)
         return (Pillar(north, east, radius, pace * math.cos(way), pace * math.sin(way)),)
 
@@ -145,10 +174,7 @@ def _make_field_from(rows: int, columns: int, number: int) -> Callable[..., Any]
         return one
     rest = _make_field_from(rows, columns, number + 1)
 
-    def field(course: float, spacing: float, speed: float, uniforms: tuple[float, ...], index: int) -> Any:
-        return (
-            *one(course, spacing, speed, uniforms, index),
-            *rest(course, spacing, speed, uniforms, index),
-        )
+    def field(course: float, plan: FieldPlan, uniforms: tuple[float, ...], index: int) -> Any:
+        return (*one(course, plan, uniforms, index), *rest(course, plan, uniforms, index))
 
     return field

@@ -8,6 +8,7 @@ import numpy as np
 
 from dq_marine.task.things import (
     Block,
+    Cage,
     Column,
     Cone,
     Faces,
@@ -19,7 +20,7 @@ from dq_marine.task.things import (
     TorpedoHull,
     Tube,
 )
-from dq_marine.viewer.meshes import Mesh, cuboid, cylinder, grid_triangles, revolved, sphere
+from dq_marine.viewer.meshes import Mesh, cuboid, cylinder, grid_triangles, joined, revolved, sphere
 from dq_marine.viewer.models.paint import SIGNAL_ORANGE
 from dq_marine.viewer.models.ship_model import HULL, ship_parts
 from dq_marine.viewer.models.torpedo_model import HULL as TORPEDO_HULL
@@ -33,6 +34,7 @@ BAND = 0xF1F3F4
 GREY = 0x5E6A75
 FUNNEL = 0xE8ECEF
 CONCRETE = 0xB4B2AA
+NET = 0x3F5A4C
 PIPE = 0xE0A100
 SAND = 0xA99A78
 ROUTE = 0x5CFFA0
@@ -55,12 +57,20 @@ DRAFT, HEIGHT = 0.045, 0.14
 
 TUBE_SECTORS = 8
 
+CAGE_ROPES, CAGE_RINGS = 24, 2.0
+"""Of a net that is drawn: ropes down, and rings over each length of the radius."""
+
+CAGE_ROPE, CAGE_COLLAR = 0.008, 0.04
+"""Their radii, and that of the collar that floats, over the radius of the cage."""
+
 
 def thing_model(form: Form) -> tuple[list[Painted], Look]:
     """Return the surfaces of a form about its origin, and how they look."""
     match form:
         case Column():
             return _column(form), SOLID
+        case Cage():
+            return _cage(form), HOLLOW
         case ShipHull():
             return _ship(form), SOLID
         case TorpedoHull():
@@ -88,6 +98,18 @@ def _column(form: Column) -> list[Painted]:
         Painted(cylinder(form.radius, form.height).placed(upright), RUST),
         Painted(band.placed(upright), BAND),
     ]
+
+
+def _cage(form: Cage) -> list[Painted]:
+    angles = np.linspace(0.0, 2.0 * np.pi, 4 * CAGE_ROPES + 1)
+    circle = form.radius * np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=1)
+    top, bottom = -0.5 * form.height, 0.5 * form.height
+    rope = CAGE_ROPE * form.radius
+    levels = np.linspace(top, bottom, 1 + max(2, round(form.height / form.radius * CAGE_RINGS)))
+    rings = [tube(circle + np.array([0.0, 0.0, level]), rope) for level in levels[1:]]
+    ropes = [tube(np.array([[x, y, top], [x, y, bottom]]), rope) for x, y, _ in circle[:-1:4]]
+    collar = tube(circle + np.array([0.0, 0.0, top]), CAGE_COLLAR * form.radius)
+    return [Painted(joined([*rings, *ropes]), NET), Painted(collar, BAND)]
 
 
 def _ship(form: ShipHull) -> list[Painted]:
