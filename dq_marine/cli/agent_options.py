@@ -20,6 +20,7 @@ from dq_marine.cli.keyword_values import read_keywords
 from dq_marine.envs.core.perturbations import PERTURBATIONS
 from dq_marine.envs.scenarios.model import Scenario
 from dq_marine.errors import InvalidInputError
+from dq_marine.util.side_by_side import Team, team_here
 from dq_marine.vehicles import vehicle_names
 
 DEFAULT_ALGORITHM = "ppo"
@@ -87,6 +88,24 @@ class EnvironmentOptions:
             "set": self.keywords or None,
             "perturb": self.perturb or None,
         }
+
+
+def requested_team(processes: int | None, *, distributed: bool, address: str | None) -> Team:
+    """Return who works side by side: processes of this machine, all cores by default, or a cluster of Ray.
+
+    Raises:
+        InvalidInputError: an address is given, and the work is not to be distributed.
+    """
+    from dq_marine.backend.workers import usable_cores
+
+    count = processes or usable_cores()
+    if distributed:
+        from dq_marine.util.cluster import cluster_workers
+
+        return lambda tasks: cluster_workers(address, count)
+    if address is not None:
+        raise InvalidInputError(f"--address {address} needs --distributed; give both, or neither")
+    return team_here(count)
 
 
 def requested_policies(policies: Sequence[str]) -> list[Path]:

@@ -10,7 +10,14 @@ from typing import Annotated
 import typer
 
 from dq_marine.cli.common import console, examples
-from dq_marine.cli.options import POLICY, Baseline, ProcessesOption, baselines_option
+from dq_marine.cli.options import (
+    POLICY,
+    AddressOption,
+    Baseline,
+    DistributedOption,
+    ProcessesOption,
+    baselines_option,
+)
 from dq_marine.errors import InvalidInputError
 
 EXAMPLES = examples(
@@ -22,6 +29,7 @@ EXAMPLES = examples(
     "dq-marine leaderboard --scenarios --episodes 0 --task Encounter --agent controller --agent zero",
     "dq-marine leaderboard --scenarios --task StationKeeping --agent controller --policy runs/ppo",
     "dq-marine leaderboard --scenarios --episodes 0 --policy policy.onnx --agent controller",
+    "dq-marine leaderboard --distributed --address 10.0.0.1:6379",
 )
 
 
@@ -69,6 +77,8 @@ def leaderboard(
         int, typer.Option("--seed", min=0, help="Seed of the first episode; the others count up from it.")
     ] = 0,
     processes: ProcessesOption = None,
+    distributed: DistributedOption = False,
+    address: AddressOption = None,
     out: Annotated[
         Path, typer.Option("--out", help="The page; its figures are kept beside it, as .json.")
     ] = Path("leaderboard.md"),
@@ -82,8 +92,7 @@ def leaderboard(
     """
     from rich.progress import Progress
 
-    from dq_marine.backend.workers import usable_cores
-    from dq_marine.cli.agent_options import requested_policies
+    from dq_marine.cli.agent_options import requested_policies, requested_team
     from dq_marine.report.leaderboard import Entry, Kept, Plan, Result, entries, fly_all, scenario_entries
     from dq_marine.report.leaderboard_page import markdown
     from dq_marine.report.leaderboard_policies import policies_of
@@ -93,6 +102,7 @@ def leaderboard(
     check_folder(out)
     if not (episodes or scenarios):
         raise InvalidInputError("--episodes 0 leaves nothing to fly; give --scenarios, too, or more episodes")
+    team = requested_team(processes, distributed=distributed, address=address)
     policies = policies_of(requested_policies(policy or []))
     agents = [str(one) for one in agent or ([] if policies else [Baseline.CONTROLLER])]
     tasks = task or list(dict.fromkeys(one.task for one in policies if not agents))
@@ -112,9 +122,7 @@ def leaderboard(
             bar.update(flying, advance=1, description=f"{result.entry.task}, {what}")
 
         try:
-            results = fly_all(
-                wanted, plan, kept, processes=processes or usable_cores(), after=after, policies=policies
-            )
+            results = fly_all(wanted, plan, kept, team=team, after=after, policies=policies)
         except KeyboardInterrupt:
             bar.stop()
             console.print(f"Stopped; {len(kept.results)} results are kept in {kept.path}", soft_wrap=True)

@@ -128,6 +128,23 @@ ProcessesOption = Annotated[
     int | None,
     typer.Option("--processes", min=1, max=256, help="How many work at a time.", show_default="all cores"),
 ]
+DistributedOption = Annotated[
+    bool,
+    typer.Option(
+        "--distributed",
+        help="Spread the work by Ray, which gives the work of a machine that is lost to others. All machines need this "
+        'package: pip install "dq-marine[distributed]".',
+    ),
+]
+AddressOption = Annotated[
+    str | None,
+    typer.Option(
+        "--address",
+        metavar="HOST:PORT",
+        help="Of a cluster of Ray, as `ray start --head` prints it, with --distributed.",
+        show_default="one that is begun on this machine",
+    ),
+]
 POLICY = (
     "Exported policy (.onnx); name of a task whose policy comes with this package, such as StationKeeping; or "
     "hf://OWNER/NAME@REVISION on the Hugging Face Hub"

@@ -28,7 +28,7 @@ from dq_marine.report.leaderboard_policies import Policy
 from dq_marine.report.sources import fingerprint, sources
 from dq_marine.util.extras import extra_needed
 from dq_marine.util.files import write_whole
-from dq_marine.util.side_by_side import workers
+from dq_marine.util.side_by_side import Team
 from dq_marine.vehicles import load_vehicle, vehicle_names
 
 NOT_FLYING = (
@@ -312,7 +312,7 @@ def fly_all(
     plan: Plan,
     kept: Kept,
     *,
-    processes: int,
+    team: Team,
     after: Callable[[Result], None],
     policies: Sequence[Policy] = (),
 ) -> list[Result]:
@@ -322,14 +322,14 @@ def fly_all(
         wanted: what is to be flown.
         plan: how often.
         kept: results of before; new ones are added.
-        processes: that fly at a time.
+        team: who fly them.
         after: called with each result that is new.
         policies: the trained ones among the agents.
     """
     asked = list(wanted)
     trained = {one.name: one for one in policies}
     missing = kept.missing(asked, trained)
-    with workers(max(1, min(processes, len(missing)))) as pool:
+    with team(len(missing)) as pool:
         flights = [pool.submit(fly_entry, entry, plan, trained.get(entry.agent)) for entry in missing]
         for done in as_completed(flights):
             kept.add(done.result())

@@ -9,8 +9,10 @@ import contextlib
 import multiprocessing
 import os
 import threading
-from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import AbstractContextManager
+from typing import Any, Protocol
 
 THREAD_NUMBERS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 """Variables of the environment that BLAS, by whomever it was made, reads when it is loaded."""
@@ -26,6 +28,23 @@ def one_thread_each() -> Iterator[None]:
     finally:
         for name in unset:
             os.environ.pop(name, None)
+
+
+class Pool(Protocol):
+    """Takes tasks, each to be called by one of several workers: an executor, or a cluster's."""
+
+    def submit(self, function: Callable[..., Any], /, *arguments: Any) -> Future[Any]:
+        """Let function(*arguments) be called, and return what will be its result."""
+        ...
+
+
+Team = Callable[[int], AbstractContextManager[Pool]]
+"""(how many tasks there will be) -> the pool that works on them within a block."""
+
+
+def team_here(processes: int) -> Team:
+    """Return the team of so many processes of this machine, or of one for each task where these are fewer."""
+    return lambda tasks: workers(max(1, min(processes, tasks)))
 
 
 @contextlib.contextmanager

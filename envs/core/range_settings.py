@@ -6,14 +6,16 @@ import functools
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from dq_marine.checks import finite_number, one_of, shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.ranging import Schedule
 from dq_marine.task.sensors.observing import OLDEST
 from dq_marine.task.world.rangefinders import RANGE_FINDERS
-from dq_marine.vehicles import Vehicle
+
+if TYPE_CHECKING:
+    from dq_marine.vehicles import Vehicle
 
 EARLY = 1e-3
 """Of a control period: a ping is due that early, so that round-off does not put it off to the next."""

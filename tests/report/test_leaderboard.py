@@ -29,6 +29,7 @@ from dq_marine.report.leaderboard import (
 )
 from dq_marine.report.leaderboard_page import markdown
 from dq_marine.report.leaderboard_policies import Policy
+from dq_marine.util.side_by_side import team_here
 
 STATION_KEEPING = "dq_marine/StationKeeping-v0"
 ENTRY = Entry(STATION_KEEPING, "bluerov2_heavy", "medium", "controller")
@@ -107,7 +108,7 @@ def test_what_there_is_not_is_refused(asked, message):
 def test_a_result_is_what_evaluation_says_and_is_not_flown_again(tmp_path):
     kept = Kept(tmp_path / "board.json", PLAN)
     new = []
-    (result,) = fly_all([ENTRY], PLAN, kept, processes=1, after=new.append)
+    (result,) = fly_all([ENTRY], PLAN, kept, team=team_here(1), after=new.append)
     keywords = {"vehicle": ENTRY.vehicle, "level": ENTRY.level}
     env = make_environment(EnvironmentSettings(id=ENTRY.task, keywords=keywords))
     (score,) = evaluate(env, {"controller": make_baseline("controller", env)}, episodes=3, seed=5)
@@ -115,7 +116,7 @@ def test_a_result_is_what_evaluation_says_and_is_not_flown_again(tmp_path):
     assert result.successes == round(3 * score.success_rate)
     assert new == [result]
     again = Kept(tmp_path / "board.json", PLAN)
-    assert fly_all([ENTRY], PLAN, again, processes=1, after=new.append) == [result]
+    assert fly_all([ENTRY], PLAN, again, team=team_here(1), after=new.append) == [result]
     assert new == [result]
     assert Kept(tmp_path / "board.json", Plan(4, 5)).results == {}  # of another plan
     assert Kept(tmp_path / "board.json", PLAN, fresh=True).results == {}
