@@ -8,6 +8,14 @@ a receiver, which is the vector d away and goes at v, after the time tau at whic
 
 Clocks are synchronised, so tau is measured and c tau is a range: from where the receiver is then to where the sender
 was. The packet is understood when all of it has come, its duration later. What a few bytes say is rounded.
+
+A navigation errs by a Gauss-Markov process, of standard deviation s, that forgets in the time T. Seen at times t apart,
+whatever they are, it is
+
+    e' = k e + s sqrt(1 - k^2) n,    k = exp(-t / T),                                                   (2)
+
+with normal numbers n (Gillespie 1996, Phys. Rev. E 54, 2084). One's own is shown in every control period; that of a
+sender is known only by what it sends, so it is drawn as it sends, with k since it sent last.
 """
 
 from __future__ import annotations
@@ -19,7 +27,7 @@ from dq_marine.algebra.elementary import arctangent, sine_and_cosine
 from dq_marine.algebra.level import Level, level_cross, level_dot
 from dq_marine.algebra.normal import normal_pair
 from dq_marine.algebra.quaternion import rotate
-from dq_marine.algebra.selection import rounded, select, some
+from dq_marine.algebra.selection import negation, rounded, select, some
 from dq_marine.algebra.vector3 import Vector3, bounded, dot, subtract
 from dq_marine.integrator.body import Motion
 from dq_marine.task.common import SPEED_BOUND
@@ -33,11 +41,8 @@ UNHEARD = 60.0
 LENGTH_STEP, SPEED_STEP, COURSE_STEP = 0.1, 0.02, math.tau / 256.0
 """What two bytes resolve of a place or a depth [m], and one of a speed [m/s] and of a course [rad]."""
 
-PACKET_DRAWS, DRIFT_DRAWS = 3, 8
-"""Uniform random numbers for the errors of a packet, and for those of all navigations."""
-
-ERRING_DRAWS = PACKET_DRAWS + DRIFT_DRAWS
-"""Uniform random numbers that `erring` takes."""
+DRIFT_DRAWS, ERRING_DRAWS = 8, 6
+"""Uniform random numbers that `first_modem` takes for the errors of all navigations, and `erring` in a period."""
 
 SENDERS = 3
 
@@ -127,9 +132,10 @@ class Modem(NamedTuple):
         turn: whose slot it is, from 0 on.
         packet: that in the slot.
         last: the last packet of each sender.
-        error: of the range of a packet that is sent now [m].
-        lost: 1 if such a packet is lost, else 0.
-        drifts: errors of navigations in north and east [m]: one's own, and of each sender.
+        error: of the range of the last packet that was sent [m].
+        lost: 1 if that packet is lost, else 0.
+        drifts: errors of navigations in north and east [m]: one's own, and of each sender as it sent last.
+        left: shares of the senders' errors that are left since then.
     """
 
     clock: float
@@ -139,6 +145,7 @@ class Modem(NamedTuple):
     error: float
     lost: float
     drifts: tuple[Level, Level, Level, Level]
+    left: tuple[float, float, float]
 
 
 def travel_time(offset: Vector3, velocity: Vector3) -> float:
@@ -163,27 +170,41 @@ def silent(drifts: tuple[Level, Level, Level, Level]) -> Modem:
     nothing = Message((0.0, 0.0), 0.0, (1.0, 0.0), 0.0)
     unheard = Heard(0.0, UNHEARD, 0.0, nothing)
     packet = Packet(0.0, 0.0, -1.0, nothing)
-    return Modem(0.0, SENDERS - 1.0, packet, (unheard, unheard, unheard), 0.0, 0.0, drifts)
+    return Modem(0.0, SENDERS - 1.0, packet, (unheard, unheard, unheard), 0.0, 0.0, drifts, (1.0, 1.0, 1.0))
 
 
 def first_modem(link: Link, uniforms: tuple[float, ...], index: int) -> Modem:
     """Return a modem that has heard nothing; navigations err as in the long run, by `DRIFT_DRAWS` uniform numbers."""
     none = (0.0, 0.0)
-    return silent(_drifted((none, none, none, none), link.drift, 0.0, uniforms, index))
-
-
-def erring(link: Link, modem: Modem, uniforms: tuple[float, ...]) -> Modem:
-    """Return a modem with errors drawn for a packet and, a control period later, for navigations."""
-    normal, _ = normal_pair(uniforms[0], uniforms[1])
-    return Modem(
-        modem.clock,
-        modem.turn,
-        modem.packet,
-        modem.last,
-        link.noise * normal,
-        select(uniforms[2] < link.dropout, 1.0, 0.0),
-        _drifted(modem.drifts, link.drift, link.kept, uniforms, PACKET_DRAWS),
+    return silent(
+        (
+            wandered(none, link.drift, 0.0, uniforms, index),
+            wandered(none, link.drift, 0.0, uniforms, index + 2),
+            wandered(none, link.drift, 0.0, uniforms, index + 4),
+            wandered(none, link.drift, 0.0, uniforms, index + 6),
+        )
     )
+
+
+def slot_then(link: Link, modem: Modem, period: float) -> tuple[Any, float, float]:
+    """Return whether a slot begins some time later [s], the time since its slot began then [s], and whose it is."""
+    # The clock is a sum of periods: half of one decides what rounding would.
+    clock = modem.clock + period
+    begins = clock > link.slot - 0.5 * period
+    turn = select(begins, select(modem.turn > SENDERS - 1.5, 0.0, modem.turn + 1.0), modem.turn)
+    return begins, select(begins, clock - link.slot, clock), turn
+
+
+def erring(link: Link, modem: Modem, uniforms: tuple[float, ...], period: float) -> Modem:
+    """Return a modem with the errors of a control period later [s]: one's own, and those of who sends then, by (2)."""
+    begins, _, turn = slot_then(link, modem, period)
+    (own, of_a, of_b, of_c), (a, b, c), kept = modem.drifts, modem.left, link.kept
+    errors = (modem.error, modem.lost, (of_a, of_b, of_c), (kept * a, kept * b, kept * c))
+    if some(begins):
+        errors = select(begins, _sending(link, turn, errors[2], errors[3], uniforms), errors)
+    error, lost, (of_a, of_b, of_c), left = errors
+    drifts = (wandered(own, link.drift, kept, uniforms, 0), of_a, of_b, of_c)
+    return Modem(modem.clock, modem.turn, modem.packet, modem.last, error, lost, drifts, left)
 
 
 def wandered(error: Level, deviation: float, kept: float, uniforms: tuple[float, ...], index: int) -> Level:
@@ -217,19 +238,16 @@ def listened(
     link: Link, modem: Modem, motion: Motion, senders: tuple[Sender, Sender, Sender], period: float
 ) -> Modem:
     """Return a modem some time later [s], which is shorter than a slot, with its motion and all senders of then."""
-    # The clock is a sum of periods: half of one decides what rounding would.
-    clock, half = modem.clock + period, 0.5 * period
-    begins = clock > link.slot - half
-    turn = select(begins, select(modem.turn > SENDERS - 1.5, 0.0, modem.turn + 1.0), modem.turn)
+    begins, clock, turn = slot_then(link, modem, period)
     (a, b, c), (_, of_a, of_b, of_c) = senders, modem.drifts
-    sender, drift = select(turn < 0.5, (a, of_a), select(turn < 1.5, (b, of_b), (c, of_c)))
     before, first, second, third = modem.packet, modem.last[0], modem.last[1], modem.last[2]
     packet = Packet(before.range, before.age + period, before.due, before.message)
     if some(begins):
+        sender, drift = select(turn < 0.5, (a, of_a), select(turn < 1.5, (b, of_b), (c, of_c)))
         packet = select(begins, _sent(link, modem, motion, sender, drift), packet)
     understood = (packet.due > 0.0) & (packet.age >= packet.due)
     return Modem(
-        select(begins, clock - link.slot, clock),
+        clock,
         turn,
         Packet(packet.range, packet.age, select(understood, -1.0, packet.due), packet.message),
         (
@@ -240,6 +258,7 @@ def listened(
         modem.error,
         modem.lost,
         modem.drifts,
+        modem.left,
     )
 
 
@@ -288,14 +307,28 @@ def _last(before: Heard, packet: Packet, understood: Any, period: float) -> Hear
     return select(understood, Heard(packet.range, packet.age, 1.0, packet.message), aged)
 
 
-def _drifted(drifts: Any, deviation: float, kept: float, uniforms: tuple[float, ...], index: int) -> Any:
-    """Return the errors of all navigations a while later, by `DRIFT_DRAWS` uniform numbers."""
-    own, a, b, c = drifts
+def _sending(link: Link, turn: float, drifts: Any, left: Any, uniforms: tuple[float, ...]) -> Any:
+    """Return errors as a packet is sent: of its range, whether it is lost; of all senders, and shares left of them.
+
+    Args:
+        link: by which it is sent.
+        turn: whose slot it is.
+        drifts: errors of the senders' navigations as they sent last [m].
+        left: shares of them that are left.
+        uniforms: random numbers in [0, 1), of which those from the third on are used.
+    """
+    (of_a, of_b, of_c), (a, b, c), dropout = drifts, left, link.dropout
+    first, third = turn < 0.5, turn > 1.5
+    second = negation(first | third)
+    before, share = select(first, (of_a, a), select(second, (of_b, b), (of_c, c)))
+    now = wandered(before, link.drift, share, uniforms, 2)
+    # What is left of a number above the dropout is uniform again, and a lost packet's range is never told.
+    normal, _ = normal_pair(max(0.0, uniforms[4] - dropout) / (1.0 - dropout), uniforms[5])
     return (
-        wandered(own, deviation, kept, uniforms, index),
-        wandered(a, deviation, kept, uniforms, index + 2),
-        wandered(b, deviation, kept, uniforms, index + 4),
-        wandered(c, deviation, kept, uniforms, index + 6),
+        link.noise * normal,
+        select(uniforms[4] < dropout, 1.0, 0.0),
+        (select(first, now, of_a), select(second, now, of_b), select(third, now, of_c)),
+        (select(first, 1.0, a), select(second, 1.0, b), select(third, 1.0, c)),
     )
 
 

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.level import Level, level_bow, level_turned, seen_at
-from dq_marine.algebra.vector3 import Vector3, add, add_scaled, norm, scale, subtract
+from dq_marine.algebra.vector3 import Vector3, add, add_scaled, dot, norm, scale, subtract
 from dq_marine.integrator.body import Motion
 from dq_marine.task.acoustics import Sender
 from dq_marine.task.common import make_pick
@@ -45,11 +45,12 @@ class Winding(NamedTuple):
 
 
 class March(NamedTuple):
-    """Control points of the leader's course [m], its parameter there, and the places of the others."""
+    """Control points of the leader's course [m], its parameter, the places of the others; length of the slope [m]."""
 
     controls: Any
     parameter: float
     places: Places
+    stretch: float
 
 
 class Formation(NamedTuple):
@@ -96,16 +97,19 @@ def make_marches(spans: int) -> Marches:
         spacing: float, begin: Vector3, winding: Winding, uniforms: tuple[float, ...], index: int
     ) -> March:
         controls = wind(begin, winding.leg, winding.turn, winding.climb, uniforms, index + 1)
-        return March(controls, 0.0, drawn_places(spacing, uniforms[index]))
+        places = drawn_places(spacing, uniforms[index])
+        return March(controls, 0.0, places, norm(point(controls, 0.0).slope_ned))
 
     def onward(march: March, way: float) -> March:
-        controls, parameter, places = march
-        half = parameter + 0.5 * way / norm(point(controls, parameter).slope_ned)
-        return March(controls, parameter + way / norm(point(controls, half).slope_ned), places)
+        controls, parameter, places, stretch = march
+        half = parameter + 0.5 * way / stretch
+        there = parameter + way / norm(point(controls, half).slope_ned)
+        # The slope is computed there for the formation, too: kept, it is not computed again a control period later.
+        return March(controls, there, places, norm(point(controls, there).slope_ned))
 
     def formation(march: March, speed: float) -> Formation:
         leader, places = point(march.controls, march.parameter), march.places
-        rate = speed / norm(leader.slope_ned)
+        rate = speed / march.stretch
         return Formation(
             (
                 member(leader, rate, (0.0, 0.0)),
@@ -173,11 +177,15 @@ def keeping(here: Formation, motion: Motion) -> Keeping:
     """Return how a vehicle keeps its place in a formation."""
     place, (north, east, _) = motion.position_ned, here.own.velocity_ned
     first, second, third = here.others
+    nearest = min(_squared(first, place), min(_squared(second, place), _squared(third, place)))
     return Keeping(
         norm(subtract(here.own.position_ned, place)),
         abs(seen_at(level_bow(motion.attitude), (north, east))),
-        min(
-            norm(subtract(first.position_ned, place)),
-            min(norm(subtract(second.position_ned, place)), norm(subtract(third.position_ned, place))),
-        ),
+        math.sqrt(nearest),
     )
+
+
+def _squared(sender: Sender, place: Vector3) -> float:
+    """Return the square of the distance of a sender from a place [m^2]."""
+    off = subtract(sender.position_ned, place)
+    return dot(off, off)

@@ -54,7 +54,8 @@ def level_course(slope_ned: Vector3) -> tuple[Vector3, Vector3]:
     """Return where a curve goes and its starboard, seen from above: two level unit vectors in NED."""
     north, east = slope_ned[0], slope_ned[1]
     level = level_length((north, east))
-    return ((north / level, east / level, 0.0), (-east / level, north / level, 0.0))
+    north, east = north / level, east / level
+    return ((north, east, 0.0), (-east, north, 0.0))
 
 
 def course_rate(point: CurvePoint, rate: float) -> float:

@@ -157,7 +157,7 @@ def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -
 
 def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
     """Return the memory with the errors of a packet that is sent now, and of navigations."""
-    return Memory(memory.march, erring(own.link, memory.modem, uniforms), memory.metrics)
+    return Memory(memory.march, erring(own.link, memory.modem, uniforms, own.period), memory.metrics)
 
 
 def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Motion) -> Memory:

@@ -115,11 +115,14 @@ def test_what_is_lost_leaves_the_last_packet_which_grows_old():
 def test_errors_of_packets_have_their_standard_deviation_and_probability():
     link = link_of(0.7, 0.3, "none", 0.0, PERIOD)
     uniforms = np.random.default_rng(0).random((4000, ERRING_DRAWS)).tolist()
-    modems = [erring(link, SILENCE, tuple(row)) for row in uniforms]
-    errors = np.array([one.error for one in modems])
+    sending = SILENCE._replace(clock=SLOT_TIME - PERIOD)
+    modems = [erring(link, sending, tuple(row), PERIOD) for row in uniforms]
+    errors = np.array([one.error for one in modems if not one.lost])
     assert errors.std() == pytest.approx(0.7, rel=0.05)
     assert abs(errors.mean()) < 0.05
     assert np.mean([one.lost for one in modems]) == pytest.approx(0.3, abs=0.03)
+    silent_yet = erring(link, SILENCE, tuple(uniforms[0]), PERIOD)
+    assert (silent_yet.error, silent_yet.lost) == (0.0, 0.0)  # nobody sends, nothing is drawn
 
 
 def test_a_navigation_wanders_about_the_truth_with_its_deviation_and_forgets_in_its_time():
@@ -136,6 +139,58 @@ def test_a_navigation_wanders_about_the_truth_with_its_deviation_and_forgets_in_
     assert north.std() == pytest.approx(2.0, rel=0.05)
     assert np.mean(north[1:] * north[:-1]) / north.var() == pytest.approx(kept, abs=0.03)
     assert abs(np.mean(north * east)) < 0.15
+
+
+def sent_errors(link, period, count):
+    """For each sender, in which control periods it sent and how its navigation erred then; and one's own errors."""
+    uniforms = np.random.default_rng(2).random((count, ERRING_DRAWS)).tolist()
+    modem, own, sent = first_modem(link, (0.3,) * DRIFT_DRAWS, 0), [], ([], [], [])
+    for step, row in enumerate(uniforms):
+        before, modem = modem.drifts, erring(link, modem, tuple(row), period)
+        now = modem.drifts
+        modem = listened(link, modem, still(), SENDING, period)
+        own.append(now[0])
+        for k, (old, new) in enumerate(zip(before[1:], now[1:], strict=True)):
+            if modem.packet.age == 0.0 and k == modem.turn:
+                told = np.subtract(modem.packet.message.place, PLACES[k][:2])
+                assert np.abs(told - new).max() <= 0.5 * LENGTH_STEP + 1e-9
+                sent[k].append((step, *new))
+            else:
+                assert new == old
+    return [(np.array(one)[:, 0], np.array(one)[:, 1:]) for one in sent], np.array(own)
+
+
+def test_a_sender_errs_when_it_sends_as_one_that_errs_in_every_period():
+    """Deviation, autocorrelation and what is new each time, by their closed forms; slots have 4 periods or 5."""
+    period, kept, deviation = (
+        0.22,
+        0.9,
+        2.0,
+    )  # what is left from packet to packet is little, so that a run is short
+    link = link_of(0.0, 0.0, "position", deviation, period)._replace(kept=kept)
+    senders, own = sent_errors(link, period, 40_000)
+    courses = [own[:, 0], own[:, 1]]
+    assert own.std(axis=0) == pytest.approx(deviation, rel=0.05)
+    assert np.mean(own[1:] * own[:-1]) / own.var() == pytest.approx(kept, abs=0.01)
+    for steps, errors in senders:
+        between = np.diff(steps)
+        assert set(between) == {13, 14}
+        assert errors.std(axis=0) == pytest.approx(deviation, rel=0.05)
+        assert np.abs(errors.mean(axis=0)).max() < 0.2
+        before, after = errors[:-1], errors[1:]
+        for periods in (13, 14):
+            those = between == periods
+            assert np.mean(before[those] * after[those]) == pytest.approx(
+                deviation**2 * kept**periods, abs=0.05 * deviation**2
+            )
+        left = (kept**between)[:, None]
+        new = (after - left * before) / (deviation * np.sqrt(1.0 - left * left))
+        assert new.std(axis=0) == pytest.approx(1.0, rel=0.05)
+        assert abs(np.mean(new * before)) < 0.05 * deviation
+        assert np.mean(np.abs(new) > 1.959964) == pytest.approx(0.05, abs=0.01)
+        courses += [np.interp(np.arange(len(own)), steps, part) for part in errors.T]
+    others = np.corrcoef(courses) - np.eye(len(courses))
+    assert np.abs(others).max() < 0.1  # nobody's error tells of another's, nor north of east
 
 
 @example(0.0, 0.0, 0.0, -0.0, 0.0)

@@ -91,6 +91,9 @@ def test_a_beam_that_grazes_a_chart_is_followed_to_where_it_meets_it(seed, headi
     below = [CHART.depth(own, x, y) <= z for x, y, z in points]
     marched = ways[below.index(True)] if any(below) else reach
     assert marched - 0.006 <= found <= marched + 1e-9
+    with pytest.MonkeyPatch.context() as patch:  # a march that ends early is where all steps would lead
+        patch.setattr("dq_marine.task.world.charts.every", lambda condition: False)
+        assert CHART.cast(own, origin, direction, reach) == found
 
 
 @given(seed=seeds, north=norths, east=easts, heading=st.floats(-math.pi, math.pi))

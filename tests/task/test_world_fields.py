@@ -214,6 +214,17 @@ def test_a_beam_that_grazes_the_seabed_stops_at_it_and_not_before(seed, heading,
     assert found >= met - 1e-3 * reach or height(found) < 0.05  # along a crest it may come near before
 
 
+@given(seed=seeds, heading=angles, below=st.floats(-0.2, 1.5))
+def test_a_beam_that_ends_its_march_early_is_where_all_steps_would_lead_it(seed, heading, below):
+    level = math.cos(below)
+    direction = (level * math.cos(heading), level * math.sin(heading), math.sin(below))
+    beam = (ground(seed), (0.0, 0.0, SEABED.depth(ground(seed), 0.0, 0.0) - 5.0), direction, 60.0)
+    found = SEABED.cast(*beam)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("dq_marine.task.world.seabed.every", lambda condition: False)
+        assert SEABED.cast(*beam) == found
+
+
 @given(seed=seeds, north=st.floats(-200.0, 200.0), east=st.floats(-200.0, 200.0), course=angles)
 def test_growth_along_a_course_is_that_of_the_depth(seed, north, east, course):
     own, step = ground(seed), 1e-3

@@ -170,7 +170,10 @@ def make_load_block(packing: Packing) -> Callable[[Any, Any, Any], Any]:
                         next(slots)
                     return cgutils.gep_inbounds(builder, common, slot.index)
                 if slot.shared:
-                    return builder.load(cgutils.gep_inbounds(builder, common, slot.index))
+                    number = builder.load(cgutils.gep_inbounds(builder, common, slot.index))
+                    # Compiled code writes no shared number, so that it need not read them again in every block.
+                    number.set_metadata("invariant.load", builder.module.add_metadata([]))
+                    return number
                 pointer = _pointer(context, builder, sig.args[1], values[1], values[2], packing, slot.index)
                 return builder.load(pointer, align=blocks.dtype.bitwidth // 8)
 

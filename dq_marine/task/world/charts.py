@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from dq_marine.algebra.level import level_length
-from dq_marine.algebra.selection import rounded, select
+from dq_marine.algebra.selection import every, rounded, select
 from dq_marine.algebra.table import Table, entry
 from dq_marine.algebra.vector3 import Vector3, add_scaled, norm, scale, subtract
 from dq_marine.task.world.seabed import LEAST_CLOSING
@@ -138,7 +138,11 @@ def make_chart(rows: int, columns: int) -> Charted:
             patch = patch_at(chart, point[0], point[1], direction[0], direction[1])
             height = max(patch.depth - point[2], 0.0)
             met = _first_fall(height, patch.growth - direction[2], patch.bend)
-            travelled = min(travelled + max(height * per_height, min(met, patch.ends)), reach)
+            onward = max(height * per_height, min(met, patch.ends))
+            before, travelled = travelled, min(travelled + onward, reach)
+            # A step follows from the way so far alone: after one of no length, those that are left would have none.
+            if every(travelled == before):
+                break
         return travelled
 
     return Charted(depth, cast, along)
