@@ -28,7 +28,7 @@ from dq_marine.task.things import (
 )
 from dq_marine.task.traffic import OtherVessel
 from dq_marine.task.world.beams import Fan, directions_of
-from dq_marine.task.world.pillars import Layout, Pillar
+from dq_marine.task.world.pillars import Hull, Layout, Pillar
 
 BEAM = 0.16
 """Of other vessels, over their length, which alone is known of them."""
@@ -46,9 +46,9 @@ SAMPLES = 49
 """Of the ground, along each axis."""
 
 
-def field_seen(pillars: Sequence[Pillar], layout: Layout, depth: float, length: float) -> list[Thing]:
-    """Return pillars or cages to draw, from the surface to as far below the depth of a vehicle of a length [m]."""
-    height = 2.0 * max(depth, length)
+def field_seen(pillars: Sequence[Pillar], layout: Layout, depth: float, hull: Hull) -> list[Thing]:
+    """Return pillars or cages to draw, from the surface to twice the depth of a vehicle [m], or twice its length."""
+    height = 2.0 * max(depth, 2.0 * hull.half_length)
     if layout.netted:  # its collar floats
         return [Thing(Cage(cage.radius, height), (cage.north, cage.east, 0.5 * height)) for cage in pillars]
     return [

@@ -235,9 +235,7 @@ define_task(
     sense_draws=sense_draws,
     lasting=("range_finder", *range_settings.PING_KEYWORDS),
     goal=lambda own, memory: Goal(memory.passage.goal_ned),
-    scenery=lambda own, memory: field_seen(
-        memory.passage.pillars, own.field.layout, own.depth, 2.0 * own.hull.half_length
-    ),
+    scenery=lambda own, memory: field_seen(memory.passage.pillars, own.field.layout, own.depth, own.hull),
     collided=lambda own, memory: memory.passage.clearance < 0.0,
     units={"goal_distance": "m", "clearance": "m", "impact_speed": "m/s"},
     levels={

@@ -29,7 +29,9 @@ ZERO = (0.0, 0.0, 0.0)
 @pytest.mark.parametrize(("depth", "length"), [(20.0, 0.5), (0.0, 320.0)], ids=["under water", "afloat"])
 def test_pillars_stand_at_their_places_and_through_the_vehicles_depth(depth, length, layout):
     pillars = [Pillar(1.0, 2.0, 0.5, 0.1, 0.0), Pillar(-7.0, 3.0, 0.25, 0.0, 0.0)]
-    for pillar, thing in zip(pillars, field_seen(pillars, layout, depth, length), strict=True):
+    for pillar, thing in zip(
+        pillars, field_seen(pillars, layout, depth, Hull(0.5 * length, 0.1 * length)), strict=True
+    ):
         assert thing.position_ned[:2] == (pillar.north, pillar.east)
         assert thing.form.radius == pillar.radius
         half = 0.5 * thing.form.height
