@@ -20,7 +20,7 @@ from dq_marine.integrator.body import Motion
 from dq_marine.task.acoustics import Sender
 from dq_marine.task.common import make_pick
 from dq_marine.task.harmonics import CurvePoint, course_rate, level_course
-from dq_marine.task.splines import make_spline, make_winding, winding_draws
+from dq_marine.task.splines import make_onward, make_spline, make_winding, winding_draws
 
 FOLLOWERS: tuple[Level, Level, Level] = ((-1.0, -1.0), (-1.0, 1.0), (-2.0, 0.0))
 """Places of a diamond behind its leader [spacings]: to port, to starboard, and last."""
@@ -88,6 +88,7 @@ class Marches(NamedTuple):
 def make_marches(spans: int) -> Marches:
     """Return the functions of a formation whose leader goes along so many spans, about a leg each."""
     point, wind = make_spline(spans).point, make_winding(spans)
+    further = make_onward(point)
 
     def first(spacing: float, uniforms: tuple[float, ...], index: int) -> tuple[float, Level]:
         return math.tau * uniforms[index + 1], drawn_places(spacing, uniforms[index]).own
@@ -100,8 +101,7 @@ def make_marches(spans: int) -> Marches:
 
     def onward(march: March, way: float) -> March:
         controls, parameter, places = march
-        half = parameter + 0.5 * way / norm(point(controls, parameter).slope_ned)
-        return March(controls, parameter + way / norm(point(controls, half).slope_ned), places)
+        return March(controls, further(controls, parameter, way), places)
 
     def formation(march: March, speed: float) -> Formation:
         leader, places = point(march.controls, march.parameter), march.places

@@ -78,6 +78,18 @@ def make_spline(spans: int) -> Spline:
     return Spline(point, nearest)
 
 
+def make_onward(
+    point: Callable[[Any, float], CurvePoint],
+) -> Callable[[Any, float, float], float]:
+    """Return (control points, parameter, way [m], which is short) -> parameter after it, by the midpoint rule."""
+
+    def onward(controls: Any, parameter: float, way: float) -> float:
+        half = parameter + 0.5 * way / norm(point(controls, parameter).slope_ned)
+        return parameter + way / norm(point(controls, half).slope_ned)
+
+    return onward
+
+
 def path_axes(point: CurvePoint) -> PathAxes:
     """Return the axes of a path at a point, which must not be vertical there."""
     slope = point.slope_ned
