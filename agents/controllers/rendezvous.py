@@ -107,6 +107,14 @@ class RendezvousController(Journey):
         )
         return self._pilot.act(attitude, order)
 
+    def _forget(self) -> None:
+        """Begin anew."""
+        self._filter: PartnerFilter | None = None
+        self._first_bow: float | None = None
+        self._velocity: Level = (0.0, 0.0)
+        self._side = 1.0
+        self._age, self._silence, self._depth, self._sinking = math.inf, 0.0, 0.0, 0.0
+
     def _wanted(self, partner: Partner, own: Level, beside: float, planned: float) -> Level:
         """Return the velocity in north and east [m/s] for a place beside the partner [m].
 
@@ -133,13 +141,6 @@ class RendezvousController(Journey):
             SLOWEST * planned, math.hypot(partner.v_north, partner.v_east) + closing * to_place[0] / distance
         )
         return turned((along, closing * to_place[1] / distance), course)
-
-    def _forget(self) -> None:
-        self._filter: PartnerFilter | None = None
-        self._first_bow: float | None = None
-        self._velocity: Level = (0.0, 0.0)
-        self._side: float = 1.0
-        self._age, self._silence, self._depth, self._sinking = math.inf, 0.0, 0.0, 0.0
 
     def _hear(self, parts: dict[str, Array], attitude: Attitude, bow: float) -> None:
         """Bring what is known of the partner up to now."""

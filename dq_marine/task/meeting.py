@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 
 from dq_marine.algebra.level import from_above, seen_at
 from dq_marine.algebra.quaternion import rotate
-from dq_marine.algebra.vector3 import Vector3, norm, scale, subtract
+from dq_marine.algebra.vector3 import Vector3, add_scaled, norm, scale, subtract
 from dq_marine.integrator.body import Motion
 from dq_marine.task.acoustics import Sender
 from dq_marine.task.formation import Winding
+from dq_marine.task.harmonics import level_course
 from dq_marine.task.splines import make_onward, make_spline, make_winding, winding_draws
 
 
@@ -71,3 +72,9 @@ def company(other: Sender, motion: Motion) -> Company:
         abs(norm(velocity_ned) - norm(other.velocity_ned)),
         abs(seen_at(from_above(velocity_ned), from_above(other.velocity_ned))),
     )
+
+
+def abreast(other: Sender, least: float, most: float) -> Sender:
+    """Return who goes to starboard of another, midway between a least and a largest distance [m]."""
+    _, starboard = level_course(other.velocity_ned)
+    return Sender(add_scaled(other.position_ned, 0.5 * (least + most), starboard), other.velocity_ned)

@@ -22,7 +22,7 @@ from dq_marine.task.acoustics import CONTENTS, Link
 from dq_marine.task.common import SPEED_BOUND, effort, observed_velocity
 from dq_marine.task.formation import Winding
 from dq_marine.task.hearing import Hearing, disturbed, first_hearing, heard_from, partner_told
-from dq_marine.task.meeting import Course, company, make_partners
+from dq_marine.task.meeting import Course, abreast, company, make_partners
 from dq_marine.task.protocol import Situation, Start
 from dq_marine.task.scenery import formation_seen
 from dq_marine.task.starts import under_way
@@ -109,7 +109,7 @@ class Memory(NamedTuple):
 
 
 class Rewards(NamedTuple):
-    """Terms of the reward, and their weights: nearness, from where one has met on 1; company; ends; effort."""
+    """Terms of the reward, and their weights: nearness; speed and course as the partner's, near it; ends; effort."""
 
     nearness: float = 0.5
     company: float = 0.5
@@ -223,7 +223,7 @@ def succeeded(own: Parameters, now: Situation) -> Any:
 
 
 def terminated(own: Parameters, now: Situation) -> Any:
-    """Whether the partner is met or hit, is lost from sight, or has come to the end of its course."""
+    """Whether the partner is met or hit, is farther than two starting distances, or at the end of its course."""
     over = succeeded(own, now) | (now.metrics.distance < own.safe) | (now.memory.course.parameter >= SPANS)
     return over | (now.metrics.distance > LOST * own.distance)
 
@@ -234,7 +234,7 @@ define_task(
     summary="Meet a partner that an acoustic modem tells of and stay beside it, in an unseen current.",
     draws=START_DRAWS + course_draws + hearing.FIRST_DRAWS,
     sense_draws=hearing.HEARING_DRAWS,
-    goal=lambda own, memory: goal_along(*partner(memory.course, own.speed)),
+    goal=lambda own, memory: goal_along(*abreast(partner(memory.course, own.speed), own.safe, own.meeting)),
     scenery=lambda own, memory: formation_seen((partner(memory.course, own.speed),), own.safe / SAFE),
     collided=lambda own, memory: memory.metrics.distance < own.safe,
     units={"distance": "m", "speed_error": "m/s", "course_error": "rad", "held_time": "s"},

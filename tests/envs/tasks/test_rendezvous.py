@@ -42,11 +42,16 @@ def numbers(vehicle="remus100", **keywords):
     return DEFINITION.parameters(settings, EpisodeContext(vehicle, DEFINITION.period_for(vehicle), {}))
 
 
+def partner_of(own, memory):
+    """Where the partner is, and its course [rad]: the goal is abreast of it."""
+    place, (w, _, _, z) = DEFINITION.goal(own, memory)
+    course, beside = 2.0 * math.atan2(z, w), 0.5 * (own.safe + own.meeting)
+    return np.array(place) - beside * np.array([-math.sin(course), math.cos(course), 0.0]), course
+
+
 def moving(own, memory, beside):
     """The motion of a vehicle beside its partner, on the level."""
-    place, attitude = DEFINITION.goal(own, memory)
-    w, _, _, z = attitude
-    course = 2.0 * math.atan2(z, w)
+    place, course = partner_of(own, memory)
     off = (-beside.starboard * math.sin(course), beside.starboard * math.cos(course), 0.0)
     velocity = Spatial((0.0, 0.0, 0.0), (beside.speed * own.speed, 0.0, 0.0))
     return Motion(
@@ -115,7 +120,7 @@ def test_what_is_observed_of_the_partner_is_where_it_was_when_sound_left_it():
     own = numbers(distance=100.0, noise=0.0, drift=0.0, dropout=0.0, contents="position")
     sent = round(own.link.slot / own.period)
     situations = list(zip(range(3 * sent), flown(own, lambda step: Beside(140.0)), strict=False))
-    places = [DEFINITION.goal(own, now.memory).position_ned for _, now in situations]
+    places = [partner_of(own, now.memory)[0] for _, now in situations]
     heard = 0
     for step, now in situations:
         told, age, distance, *_ = TASK.observe(own, now.memory, now.motion)[0]
