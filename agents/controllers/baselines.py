@@ -17,6 +17,7 @@ from dq_marine.agents.controllers.formations import FormationController
 from dq_marine.agents.controllers.journeys import DepthHeadingController, PathController, WaypointController
 from dq_marine.agents.controllers.pipelines import PipelineController
 from dq_marine.agents.controllers.reading import shown_names
+from dq_marine.agents.controllers.rendezvous import RendezvousController
 from dq_marine.agents.controllers.terrain import TerrainController
 from dq_marine.agents.controllers.tracking import TrackingController
 from dq_marine.agents.environments import marine
@@ -70,6 +71,7 @@ CONTROLLERS: tuple[type[Controller], ...] = (
     DepthHeadingController,
     EncounterController,
     FormationController,
+    RendezvousController,
     AvoidanceController,
     TerrainController,
     PipelineController,

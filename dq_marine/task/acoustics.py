@@ -244,16 +244,17 @@ def listened(
     packet = Packet(before.range, before.age + period, before.due, before.message)
     if some(begins):
         sender, drift = select(turn < 0.5, (a, of_a), select(turn < 1.5, (b, of_b), (c, of_c)))
-        packet = select(begins, _sent(link, modem, motion, sender, drift), packet)
+        sent = packet_sent(link, motion, sender, drift, modem.error, modem.lost)
+        packet = select(begins, sent, packet)
     understood = (packet.due > 0.0) & (packet.age >= packet.due)
     return Modem(
         clock,
         turn,
         Packet(packet.range, packet.age, select(understood, -1.0, packet.due), packet.message),
         (
-            _last(first, packet, understood & (turn < 0.5), period),
-            _last(second, packet, understood & (turn > 0.5) & (turn < 1.5), period),
-            _last(third, packet, understood & (turn > 1.5), period),
+            last_heard(first, packet, understood & (turn < 0.5), period),
+            last_heard(second, packet, understood & (turn > 0.5) & (turn < 1.5), period),
+            last_heard(third, packet, understood & (turn > 1.5), period),
         ),
         modem.error,
         modem.lost,
@@ -270,13 +271,14 @@ def packets_told(link: Link, modem: Modem, measured: Motion, bow: Level, far: fl
     (a, b, c), (x, y, z), own = modem.last, measured.position_ned, modem.drifts[0]
     here = (x + own[0], y + own[1], z)
     return (
-        _told(link, a, here, bow, far),
-        _told(link, b, here, bow, far),
-        _told(link, c, here, bow, far),
+        packet_told(link, a, here, bow, far),
+        packet_told(link, b, here, bow, far),
+        packet_told(link, c, here, bow, far),
     )
 
 
-def _told(link: Link, last: Heard, here: Vector3, bow: Level, far: float) -> Any:
+def packet_told(link: Link, last: Heard, here: Vector3, bow: Level, far: float) -> Any:
+    """Return what is told of a sender's last packet, seen from a place [m]; see `packets_told`."""
     said = last.message
     course, position = link.course_told * last.heard, link.position_told * last.heard
     offset = (said.place[0] - here[0], said.place[1] - here[1])
@@ -292,16 +294,27 @@ def _told(link: Link, last: Heard, here: Vector3, bow: Level, far: float) -> Any
     )
 
 
-def _sent(link: Link, modem: Modem, motion: Motion, sender: Sender, drift: Level) -> Packet:
-    """Return a packet that is sent now."""
+def packet_sent(
+    link: Link, motion: Motion, sender: Sender, drift: Level, error: float, lost: float
+) -> Packet:
+    """Return a packet that is sent now.
+
+    Args:
+        link: between the two.
+        motion: of the receiver.
+        sender: where it is.
+        drift: error of its navigation [m].
+        error: of the range [m].
+        lost: 1 if the packet is lost, else 0.
+    """
     offset = subtract(motion.position_ned, sender.position_ned)
     delay = travel_time(offset, rotate(motion.attitude, motion.velocity.linear))
-    measured = max(0.0, SOUND_SPEED * delay + modem.error)
-    due = select(modem.lost > 0.5, -1.0, delay + link.packet)
+    measured = max(0.0, SOUND_SPEED * delay + error)
+    due = select(lost > 0.5, -1.0, delay + link.packet)
     return Packet(measured, 0.0 * delay, due, message_of(sender, drift))
 
 
-def _last(before: Heard, packet: Packet, understood: Any, period: float) -> Heard:
+def last_heard(before: Heard, packet: Packet, understood: Any, period: float) -> Heard:
     """Return the last packet of a sender, some time later [s]."""
     aged = Heard(before.range, min(UNHEARD, before.age + period), before.heard, before.message)
     return select(understood, Heard(packet.range, packet.age, 1.0, packet.message), aged)

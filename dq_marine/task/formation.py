@@ -20,7 +20,7 @@ from dq_marine.integrator.body import Motion
 from dq_marine.task.acoustics import Sender
 from dq_marine.task.common import make_pick
 from dq_marine.task.harmonics import CurvePoint, course_rate, level_course
-from dq_marine.task.splines import make_spline, make_winding, winding_draws
+from dq_marine.task.splines import make_onward, make_spline, make_winding, winding_draws
 
 FOLLOWERS: tuple[Level, Level, Level] = ((-1.0, -1.0), (-1.0, 1.0), (-2.0, 0.0))
 """Places of a diamond behind its leader [spacings]: to port, to starboard, and last."""
@@ -89,6 +89,7 @@ class Marches(NamedTuple):
 def make_marches(spans: int) -> Marches:
     """Return the functions of a formation whose leader goes along so many spans, about a leg each."""
     point, wind = make_spline(spans).point, make_winding(spans)
+    further = make_onward(point)
 
     def first(spacing: float, uniforms: tuple[float, ...], index: int) -> tuple[float, Level]:
         return math.tau * uniforms[index + 1], drawn_places(spacing, uniforms[index]).own
@@ -102,8 +103,7 @@ def make_marches(spans: int) -> Marches:
 
     def onward(march: March, way: float) -> March:
         controls, parameter, places, stretch = march
-        half = parameter + 0.5 * way / stretch
-        there = parameter + way / norm(point(controls, half).slope_ned)
+        there = further(controls, parameter, stretch, way)
         # The slope is computed there for the formation, too: kept, it is not computed again a control period later.
         return March(controls, there, places, norm(point(controls, there).slope_ned))
 

@@ -78,6 +78,19 @@ def make_spline(spans: int) -> Spline:
     return Spline(point, nearest)
 
 
+def make_onward(point: Callable[[Any, float], CurvePoint]) -> Callable[[Any, float, float, float], float]:
+    """Return (control points, parameter, length of the slope there, short way [m]) -> parameter after that way.
+
+    It is by the midpoint rule.
+    """
+
+    def onward(controls: Any, parameter: float, stretch: float, way: float) -> float:
+        half = parameter + 0.5 * way / stretch
+        return parameter + way / norm(point(controls, half).slope_ned)
+
+    return onward
+
+
 def path_axes(point: CurvePoint) -> PathAxes:
     """Return the axes of a path at a point, which must not be vertical there."""
     slope = point.slope_ned

@@ -54,8 +54,8 @@ def vessels_shown(count: int, far: float) -> tuple[Observed, ...]:
     return tuple(one for parts in of_each for one in parts)
 
 
-def packets_shown(far: float) -> tuple[Observed, ...]:
-    """Return what `dq_marine.task.acoustics.packets_told` gives; places are bounded by `far` [m]."""
+def packets_shown(far: float, senders: int = SENDERS) -> tuple[Observed, ...]:
+    """Return what `dq_marine.task.acoustics.packets_told` gives of so many; places are bounded by `far` [m]."""
     level = "ahead and to starboard"
     of_each = [
         (
@@ -75,6 +75,6 @@ def packets_shown(far: float) -> tuple[Observed, ...]:
             Observed(f"packet_{k}_course_level", "", 2, 1.0, f"its course, {level}"),
             Observed(f"packet_{k}_speed", "m/s", 1, SPEED_BOUND, "its speed"),
         )
-        for k in range(1, SENDERS + 1)
+        for k in range(1, senders + 1)
     ]
     return tuple(one for parts in of_each for one in parts)
