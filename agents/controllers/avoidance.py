@@ -36,8 +36,9 @@ class AvoidanceController(Journey):
     ) -> None:
         """Prepare for an environment's vehicle; None reads the presets `avoidance` and `autopilot`."""
         inner = marine(env)
-        finder = RANGE_FINDERS[inner.task_settings.range_finder]
-        self._fresh = FreshReadings(inner, finder.beams)
+        task = inner.task_settings
+        fan = RANGE_FINDERS[task.range_finder].fan(task.beams)
+        self._fresh = FreshReadings(inner, task.beams)
         super().__init__(env, autopilot, self._fresh.reads)
         size = self._vehicle.dimensions
         own = self._avoidance = settings or read_settings("avoidance", AvoidanceSettings)
@@ -46,7 +47,7 @@ class AvoidanceController(Journey):
         self._horizon = min(own.look_ahead, inner.task_settings.reach) * size.length
         self._ways = Ways(own, 0.5 * size.width, size.length, self._pilot.turning_radius(self._speed))
         self._echoes = Echoes(
-            np.array(finder.fan.bearings),
+            np.array(fan.bearings),
             inner.task_settings.reach * size.length,
             own.lasting * size.length / self._speed,
         )

@@ -8,11 +8,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from dq_marine.checks import finite_number, one_of, shown
+from dq_marine.checks import finite_number, one_of, shown, whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.ranging import Schedule
 from dq_marine.task.sensors.observing import OLDEST
-from dq_marine.task.world.rangefinders import RANGE_FINDERS
+from dq_marine.task.world.rangefinders import RANGE_FINDERS, RangeFinder
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
@@ -22,6 +22,9 @@ EARLY = 1e-3
 
 FASTEST = 1e6
 """Rate of pings [Hz]: of any above that of control there is one in every control period."""
+
+MOST_BEAMS = 128
+"""Of a range sensor: more take minutes to compile."""
 
 PING_KEYWORDS = ("rate", "latency")
 """They choose what a memory holds, and so last as long as an environment does."""
@@ -58,32 +61,47 @@ def checked_ranging(given: RangeSettings) -> dict[str, Any]:
     }
 
 
-def checked_finder(given: Any, vehicle: Vehicle) -> str:
-    """Return the name of one of `RANGE_FINDERS`.
+def checked_finder(range_finder: Any, beams: Any, vehicle: Vehicle) -> dict[str, Any]:
+    """Return `range_finder`, one of `RANGE_FINDERS`, and how many `beams` it has; None is as many as it has by itself.
 
     Raises:
-        InvalidInputError: it is none, or a vehicle under water is to see by light what is above it.
+        InvalidInputError: there is none of that name or with so many beams, or a vehicle under water is to see by light
+            what is above it.
     """
-    name: str = one_of("range_finder", given, RANGE_FINDERS)
+    name: str = one_of("range_finder", range_finder, RANGE_FINDERS)
+    count = (
+        RANGE_FINDERS[name].beams if beams is None else whole_number("beams", beams, least=2, most=MOST_BEAMS)
+    )
+    if count % 2:
+        raise InvalidInputError(
+            f"beams = {shown(beams)} is odd, and their errors are drawn in pairs; give an even number"
+        )
     if RANGE_FINDERS[name].in_air and vehicle.hydrostatics is None:
         under_water = [other for other, finder in RANGE_FINDERS.items() if not finder.in_air]
         raise InvalidInputError(
             f"range_finder = {shown(name)} sees what is above the water, and {vehicle.name} is under it; give one of "
             f"{under_water}, or a vessel that floats"
         )
-    return name
+    return {"range_finder": name, "beams": count}
 
 
 def formulas_by_finder(
-    make_formulas: Callable[[str], Mapping[str, Any]],
+    make_formulas: Callable[[RangeFinder, int], Mapping[str, Any]],
 ) -> Callable[[Any], Mapping[str, Any]]:
-    """Return the `formulas` of a task, see `TaskDefinition`: by the `range_finder` of settings, each made once."""
+    """Return the `formulas` of a task, see `TaskDefinition`: by `range_finder` and `beams`, each made once."""
     made = functools.cache(make_formulas)
 
     def formulas(settings: Any) -> Mapping[str, Any]:
-        return made(settings.range_finder)
+        finder = RANGE_FINDERS[settings.range_finder]
+        return made(finder, settings.beams or finder.beams)
 
     return formulas
+
+
+def finder_schedule(settings: Any, period: float) -> Schedule | None:
+    """Return when a range sensor pings, one of `RANGE_FINDERS` with so many `beams`; see `ping_schedule`."""
+    turns = settings.beams if RANGE_FINDERS[settings.range_finder].scans else 1
+    return ping_schedule(settings, settings.beams, turns, period)
 
 
 def ping_schedule(settings: RangeSettings, beams: int, turns: int, period: float) -> Schedule | None:

@@ -23,7 +23,7 @@ from dq_marine.task.scenery import beams_seen, field_seen
 from dq_marine.task.starts import under_way
 from dq_marine.task.world.beams import make_errors, make_fan, make_readings
 from dq_marine.task.world.pillars import LAYOUTS, FieldPlan, Hull, field_draws, pillars_cast
-from dq_marine.task.world.rangefinders import RANGE_FINDERS
+from dq_marine.task.world.rangefinders import RANGE_FINDERS, RangeFinder
 
 ROWS, COLUMNS = 4, 3  # of the field
 length, drawn_passage, onward = make_passages(ROWS, COLUMNS)
@@ -38,9 +38,10 @@ class Settings(RangeSettings):
     """Spacing of pillars, reach of beams, radius of arrival [vehicle lengths]; speed of pillars; range sensor.
 
     The `obstacles` are "pillars" or "cages", wider, with nets. Every other one of them goes at up to `pillar_speed`
-    [share of the speed of journeys]. The `range_finder` is "multibeam",
-    a sonar that sees what is ahead, "scanning", one whose head turns from beam to beam with each ping, or "lidar", of
-    vessels that float, which sees all round. For `noise`, `dropout`, `rate` and `latency` see `RangeSettings`.
+    [share of the speed of journeys]. The `range_finder` is "multibeam", a sonar that sees what is ahead, "scanning",
+    one whose head turns from beam to beam with each ping, or "lidar", of vessels that float, which sees all round. It
+    has so many `beams`: None is 24, and 48 of a lidar. For `noise`, `dropout`, `rate` and `latency` see
+    `RangeSettings`.
     """
 
     obstacles: str = "pillars"
@@ -50,6 +51,7 @@ class Settings(RangeSettings):
     dropout: float = 0.02
     arrival_radius: float = 1.0
     range_finder: str = "multibeam"
+    beams: int | None = None
 
 
 def fitted(given: Settings, vehicle: Any) -> Settings:
@@ -61,7 +63,7 @@ def fitted(given: Settings, vehicle: Any) -> Settings:
         pillar_speed=finite_number("pillar_speed", given.pillar_speed, least=0.0, most=2.0),
         reach=finite_number("reach", given.reach, least=1.0, most=1e2),
         arrival_radius=finite_number("arrival_radius", given.arrival_radius, above=0.0, most=1e2),
-        range_finder=range_settings.checked_finder(given.range_finder, vehicle),
+        **range_settings.checked_finder(given.range_finder, given.beams, vehicle),
         **range_settings.checked_ranging(given),
     )
 
@@ -130,10 +132,9 @@ def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     return under_way((0.0, 0.0, own.depth), heading, own.speed * (0.5 + 0.5 * uniforms[2]))
 
 
-def make_formulas(range_finder: str) -> dict[str, Any]:
-    """Return the formulas that are about a range sensor, by their names."""
-    finder = RANGE_FINDERS[range_finder]
-    fan, count = make_fan(finder.fan, pillars_cast), finder.beams
+def make_formulas(finder: RangeFinder, count: int) -> dict[str, Any]:
+    """Return the formulas that are about a range sensor of so many beams, by their names."""
+    fan = make_fan(finder.fan(count), pillars_cast)
     drawn_errors, readings, exact = make_errors(count), make_readings(count), (0.0,) * count
 
     def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
@@ -176,10 +177,9 @@ initial_memory, sense, sense_draws, update_memory, observe = formulas(Settings()
 
 def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     """Return what an observation consists of."""
-    beams = RANGE_FINDERS[settings.range_finder].beams
     far = 2.0 * length(settings.spacing * vehicle.dimensions.length)
     return (
-        Observed("beam_readings", "", beams, 1.0, "free way over the reach, from port to starboard"),
+        Observed("beam_readings", "", settings.beams, 1.0, "free way over the reach, from port to starboard"),
         Observed("goal_direction_body", "", 3, 1.0, "where the goal is, seen from the vehicle"),
         Observed("goal_distance", "m", 1, far, "how far it is"),
         Observed("down_body", "", 3, 1.0, "where down is"),
@@ -215,16 +215,10 @@ def terminated(own: Parameters, now: Situation) -> Any:
     return succeeded(own, now) | (now.metrics.clearance < 0.0) | far
 
 
-def schedule(settings: Any, period: float) -> Any:
-    """Return when the range sensor pings and tells."""
-    finder = RANGE_FINDERS[settings.range_finder]
-    return range_settings.ping_schedule(settings, finder.beams, finder.turns, period)
-
-
 def beams(own: Parameters, memory: Memory) -> Any:
     """Return what the beams tell, for drawing."""
-    fan, readings = list(RANGE_FINDERS.values())[int(own.finder)].fan, make_readings(len(memory.ranges))
-    return beams_seen(fan, readings, memory.ranges, memory.errors, own.reach)
+    count, finder = len(memory.ranges), list(RANGE_FINDERS.values())[int(own.finder)]
+    return beams_seen(finder.fan(count), make_readings(count), memory.ranges, memory.errors, own.reach)
 
 
 define_task(
@@ -233,7 +227,8 @@ define_task(
     summary="Reach a goal beyond a field of pillars that beams tell of, in an unseen current.",
     draws=START_DRAWS + field_draws(ROWS, COLUMNS),
     sense_draws=sense_draws,
-    lasting=("range_finder", *range_settings.PING_KEYWORDS),
+    schedule=range_settings.finder_schedule,
+    lasting=("range_finder", "beams", *range_settings.PING_KEYWORDS),
     goal=lambda own, memory: Goal(memory.passage.goal_ned),
     scenery=lambda own, memory: field_seen(memory.passage.pillars, own.field.layout, own.depth, own.hull),
     collided=lambda own, memory: memory.passage.clearance < 0.0,

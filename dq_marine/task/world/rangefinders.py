@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -13,26 +13,23 @@ class RangeFinder(NamedTuple):
     """A range sensor.
 
     Attributes:
-        fan: where its beams point; their number is even.
-        turns: pings of a sweep: 1 where all beams ping at once, their number where one head turns from beam to beam.
+        fan: (number of beams) -> where they point.
+        beams: how many it has, if nothing else is said: an even number.
+        scans: whether a head turns from beam to beam with each ping; else all beams ping at once.
         in_air: whether it sees what is above the water, and nothing below.
     """
 
-    fan: Fan
-    turns: int
+    fan: Callable[[int], Fan]
+    beams: int
+    scans: bool
     in_air: bool
-
-    @property
-    def beams(self) -> int:
-        """How many it has."""
-        return len(self.fan.bearings)
 
 
 RANGE_FINDERS: Mapping[str, RangeFinder] = MappingProxyType(
     {
-        "multibeam": RangeFinder(fan_forward(24), 1, False),
-        "scanning": RangeFinder(fan_forward(24), 24, False),
-        "lidar": RangeFinder(fan_round(48), 1, True),
+        "multibeam": RangeFinder(fan_forward, 24, scans=False, in_air=False),
+        "scanning": RangeFinder(fan_forward, 24, scans=True, in_air=False),
+        "lidar": RangeFinder(fan_round, 48, scans=False, in_air=True),
     }
 )
 """By name: a forward multibeam sonar, a sonar whose head scans the same sector, and a lidar that sees all round."""

@@ -133,7 +133,7 @@ def test_a_lidar_sees_all_round_and_only_above_the_water():
     finder = RANGE_FINDERS["lidar"]
     env.reset(seed=0)
     beams = env.snapshot().beams
-    assert len(beams) == finder.beams
+    assert len(beams) == finder.beams == 48
     angles = np.sort([math.atan2(one.direction_body[1], one.direction_body[0]) for one in beams])
     np.testing.assert_allclose(np.diff(angles), math.tau / finder.beams, atol=1e-12)
     with pytest.raises(InvalidInputError, match=r"lidar.*above the water.*multibeam"):
@@ -149,6 +149,8 @@ def test_a_lidar_sees_all_round_and_only_above_the_water():
         ({"latency": 0.2}, r"latency = 0\.2 s, but the next ping follows after 0\.1 s.*at most that$"),
         ({"rate": 2.0, "latency": 0.6}, r"after 0\.5 s.*or a lower rate$"),
         ({"range_finder": "radar"}, "range_finder.*multibeam"),
+        ({"beams": 7}, "beams = 7 is odd.*even"),
+        ({"beams": 1000}, "beams"),
     ],
 )
 def test_wrong_keywords_are_refused(keywords, message):
@@ -156,7 +158,7 @@ def test_wrong_keywords_are_refused(keywords, message):
         made(**keywords)
 
 
-@pytest.mark.parametrize("name", ["rate", "latency", "range_finder"])
+@pytest.mark.parametrize("name", ["rate", "latency", "range_finder", "beams"])
 def test_what_pings_holds_as_long_as_the_environment(name):
     env = made()
     with pytest.raises(InvalidInputError, match="make another one"):
