@@ -43,10 +43,8 @@ CASES = [
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("task", "keywords", "count"),
-    sweep(CASES, plain=[(STATION_KEEPING, "wrenches", 0)]),
-)
+@pytest.mark.sweep  # `test_delays.py` carries an environment in a plain run
+@pytest.mark.parametrize(("task", "keywords", "count"), CASES)
 def test_an_environment_that_travelled_goes_on_bit_for_bit(task, keywords, count):
     make = maker(task, keywords, count)
     env = make()

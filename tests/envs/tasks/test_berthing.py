@@ -5,7 +5,6 @@ import math
 import gymnasium as gym
 import numpy as np
 import pytest
-from support.sweeps import sweep
 
 from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.controllers.berthing import BerthingController
@@ -23,7 +22,8 @@ ID = "dq_marine/Berthing-v0"
 SUITED = ("kvlcc2", "kvlcc2_l7", "osv83", "otter", "supply_vessel", "tanker")
 
 
-@pytest.mark.parametrize("vehicle", sweep(SUITED, plain=["otter"]))
+@pytest.mark.sweep  # whole episodes
+@pytest.mark.parametrize("vehicle", SUITED)
 def test_the_baseline_comes_alongside_in_current_and_wind(vehicle):
     env = gym.make(ID, vehicle=vehicle, level="medium")
     controller = controller_for(env)

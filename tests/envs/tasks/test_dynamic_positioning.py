@@ -3,7 +3,6 @@
 import gymnasium as gym
 import numpy as np
 import pytest
-from support.sweeps import sweep
 
 from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.controllers.dp_controller import within_authority
@@ -35,7 +34,8 @@ def test_starts_and_headings_are_drawn_within_what_is_said():
     assert 0.6 < max(headings) <= 0.7
 
 
-@pytest.mark.parametrize("level", sweep(["easy", "medium"], plain=["easy"]))
+@pytest.mark.sweep  # whole episodes
+@pytest.mark.parametrize("level", ["easy", "medium"])
 def test_a_ship_keeps_its_place_by_its_thrusters(level):
     env = made(level=level)
     episode = fly_episode(env, controller_for(env), seed=1)

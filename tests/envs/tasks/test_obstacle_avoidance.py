@@ -3,7 +3,6 @@
 import gymnasium as gym
 import numpy as np
 import pytest
-from support.sweeps import sweeps_wanted
 
 from dq_marine.agents.controllers.avoidance import AvoidanceController
 from dq_marine.agents.controllers.baselines import controller_for
@@ -42,14 +41,13 @@ def flown(env, seed, blind=False):
 
 
 @pytest.fixture(scope="module")
-def flights(request):
-    """By seed, the episodes of the controller that sees and of the one that does not; of two in a plain run."""
+def flights():
+    """By seed, the episodes of the controller that sees and of the one that does not."""
     env = made(level="medium")
-    seeds = SEEDS if sweeps_wanted(request.config) else SEEDS[:2]
-    return {seed: (flown(env, seed), flown(env, seed, blind=True)) for seed in seeds}
+    return {seed: (flown(env, seed), flown(env, seed, blind=True)) for seed in SEEDS}
 
 
-@pytest.mark.sweep  # the controller and beams by themselves are met in a plain run
+@pytest.mark.sweep  # whole episodes: the controller and beams by themselves are met in a plain run
 def test_the_controller_arrives_where_a_blind_one_collides(flights):
     seeing = [one[-1]["is_success"] for one, _ in flights.values()]
     blind = [one[-1]["is_success"] for _, one in flights.values()]
@@ -57,6 +55,7 @@ def test_the_controller_arrives_where_a_blind_one_collides(flights):
     assert sum(blind) <= len(SEEDS) // 2
 
 
+@pytest.mark.sweep
 def test_a_collision_ends_the_episode_at_the_speed_of_the_impact(flights):
     ends = [one[-1] for pair in flights.values() for one in pair if one[-1]["clearance"] < 0.0]
     assert ends
@@ -66,6 +65,7 @@ def test_a_collision_ends_the_episode_at_the_speed_of_the_impact(flights):
         assert not end["is_success"]
 
 
+@pytest.mark.sweep
 def test_success_is_the_goal_reached_with_room_to_spare_all_the_way(flights):
     length = made().vehicle.dimensions.length
     for infos, _ in flights.values():

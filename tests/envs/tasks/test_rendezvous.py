@@ -6,7 +6,6 @@ from typing import NamedTuple
 import gymnasium as gym
 import numpy as np
 import pytest
-from support.sweeps import sweep
 
 from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.controllers.rendezvous import RendezvousController
@@ -195,7 +194,8 @@ def test_wrong_keywords_are_refused(name, value):
         numbers(**{name: value})
 
 
-@pytest.mark.parametrize("vehicle", sweep(VEHICLES, plain=("remus100",)))
+@pytest.mark.sweep  # whole episodes
+@pytest.mark.parametrize("vehicle", VEHICLES)
 def test_the_baseline_meets_its_partner(vehicle):
     env = gym.make(RENDEZVOUS, vehicle=vehicle, level="medium")
     controller = controller_for(env)
