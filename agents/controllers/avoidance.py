@@ -9,6 +9,7 @@ import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.controllers.autopilot import Attitude, Order, seen
+from dq_marine.agents.controllers.dead_reckoning import gone
 from dq_marine.agents.controllers.echoes import Echoes
 from dq_marine.agents.controllers.fresh_readings import FreshReadings
 from dq_marine.agents.controllers.guidance import levelled, no_turn_leads_to, wrapped
@@ -44,11 +45,11 @@ class AvoidanceController(Journey):
         own = self._avoidance = settings or read_settings("avoidance", AvoidanceSettings)
         self._speed = cruising_speed(self._vehicle) * own.haste
         self._bend = slow_bends(self._pilot, self._settings, self._speed)[1]
-        self._horizon = min(own.look_ahead, inner.task_settings.reach) * size.length
+        self._horizon = min(own.look_ahead, task.reach) * size.length
         self._ways = Ways(own, 0.5 * size.width, size.length, self._pilot.turning_radius(self._speed))
         self._echoes = Echoes(
             np.array(fan.bearings),
-            inner.task_settings.reach * size.length,
+            task.reach * size.length,
             own.lasting * size.length / self._speed,
         )
         self._kept: float | None = None
@@ -86,11 +87,6 @@ class AvoidanceController(Journey):
     def _remember(self, parts: dict[str, Any], attitude: Attitude, wanted: float) -> float:
         """Bring the echoes up to now, and return the course that was chosen last, from the bow of now [rad]."""
         period = self._pilot.period
-        ahead, starboard, _ = attitude.velocity_level
-        turning = float(attitude.velocity_body[5])
-        turn, fresh = period * turning, self._fresh.of(parts)
-        self._echoes.move((period * ahead, period * starboard), turn, period)
-        self._echoes.add(
-            parts["beam_readings"], attitude.roll, attitude.pitch, fresh, (ahead, starboard, turning)
-        )
-        return wanted if self._kept is None else wrapped(self._kept - turn)
+        self._echoes.move(attitude, period)
+        self._echoes.add(parts["beam_readings"], self._fresh.of(parts), attitude)
+        return wanted if self._kept is None else wrapped(self._kept - gone(attitude, period).turn)

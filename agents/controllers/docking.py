@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.autopilot import seen
 from dq_marine.agents.controllers.dp_controller import DPController
-from dq_marine.agents.controllers.journeys import Journey
-from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
+from dq_marine.agents.controllers.journeys import GuidedJourney
+from dq_marine.agents.controllers.line_of_sight import Offset
 from dq_marine.agents.controllers.reading import GOAL_POSE, Reading, goal_pose, parts_reader
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
@@ -115,7 +115,7 @@ class Creeping:
         )
 
 
-class FlyingIn(Journey):
+class FlyingIn(GuidedJourney):
     """Leads a vehicle along the dock's axis by line of sight, at the speed at which it may come in."""
 
     READS = DockingController.READS
@@ -124,12 +124,6 @@ class FlyingIn(Journey):
         """Prepare for an environment's vehicle."""
         settings = read_settings("autopilot", AutopilotSettings)
         super().__init__(env, settings.model_copy(update={"adaptation": ADAPTATION}))
-        self._guidance = LineOfSight(self._pilot, self._settings)
-
-    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
-        """Forget the episode before."""
-        super().reset(env)
-        self._guidance.reset()
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""

@@ -7,11 +7,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.agents.controllers.dead_reckoning import carried
+from dq_marine.agents.controllers.autopilot import Attitude
+from dq_marine.agents.controllers.dead_reckoning import carried, gone
 from dq_marine.agents.controllers.fresh_readings import Fresh
 
 Array = NDArray[np.float64]
-Velocity = tuple[float, float, float]
 
 SECTOR = math.radians(5.0)
 """Of each sector round the vehicle, only the newest echo is kept [rad]."""
@@ -35,29 +35,27 @@ class Echoes:
         """Where echoes are now, shape (n, 2)."""
         return self._points
 
-    def move(self, way: tuple[float, float], turn: float, time: float) -> None:
-        """Tell how far a vehicle has gone ahead and to starboard [m], and turned to starboard [rad], in a time [s]."""
-        self._points = carried(self._points, way, turn)
+    def move(self, attitude: Attitude, time: float) -> None:
+        """Tell that a vehicle has gone for a time [s] as its attitude says."""
+        self._points = carried(self._points, *gone(attitude, time))
         self._ages = self._ages + time
 
-    def add(self, readings: Array, roll: float, pitch: float, fresh: Fresh, velocity: Velocity) -> None:
+    def add(self, readings: Array, fresh: Fresh, attitude: Attitude) -> None:
         """Take the readings that are fresh, and drop what is old or hidden.
 
         Args:
             readings: of the beams, shares of the reach.
-            roll: of the vehicle [rad].
-            pitch: of the vehicle [rad].
-            fresh: which of the readings are, and since when.
-            velocity: ahead and to starboard [m/s], and turning to starboard [rad/s]: what is told late has moved.
+            fresh: which of the readings are, and since when: what is told late has moved.
+            attitude: of the vehicle.
         """
+        roll, pitch = attitude.roll, attitude.pitch
         met = (readings < 1.0) & fresh.beams
         ahead, starboard = self._reach * readings * self._cosines, self._reach * readings * self._sines
         down = math.sin(roll) * starboard
         level = np.column_stack(
             [math.cos(pitch) * ahead + math.sin(pitch) * down, math.cos(roll) * starboard]
         )
-        way = (fresh.age * velocity[0], fresh.age * velocity[1])
-        new = carried(level[met], way, fresh.age * velocity[2])
+        new = carried(level[met], *gone(attitude, fresh.age))
         points = np.concatenate([new, self._points])
         ages = np.concatenate([np.full(len(new), fresh.age), self._ages])
         sectors = np.floor(np.arctan2(points[:, 1], points[:, 0]) / SECTOR)

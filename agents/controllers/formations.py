@@ -20,8 +20,8 @@ from dq_marine.agents.controllers.formation_filter import (
     Packet,
     turned,
 )
-from dq_marine.agents.controllers.journeys import MOTION, Journey
-from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
+from dq_marine.agents.controllers.journeys import MOTION, GuidedJourney
+from dq_marine.agents.controllers.line_of_sight import Offset
 from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
@@ -40,7 +40,7 @@ HASTE = 0.4
 """Largest difference from the speed of one's place, over the formation's."""
 
 
-class FormationController(Journey):
+class FormationController(GuidedJourney):
     """Estimates where the vehicle is in its formation, and goes along the course of its place by line of sight."""
 
     READS: ClassVar[tuple[str, ...]] = (
@@ -55,14 +55,12 @@ class FormationController(Journey):
     def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
         super().__init__(env, autopilot)
-        self._guidance = LineOfSight(self._pilot, self._settings)
         self._filter: FormationFilter | None = None
         self._ages = [math.inf] * len(SENDERS)
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
         super().reset(env)
-        self._guidance.reset()
         self._filter = None
         self._ages = [math.inf] * len(SENDERS)
 

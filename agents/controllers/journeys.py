@@ -62,7 +62,26 @@ class Journey:
         self._pilot.reset()
 
 
-class PathController(Journey):
+class GuidedJourney(Journey):
+    """A journey along a line that is led by adaptive line of sight, level and vertical."""
+
+    def __init__(
+        self,
+        env: gym.Env[Any, Any],
+        autopilot: AutopilotSettings | None = None,
+        also_reads: tuple[str, ...] = (),
+    ) -> None:
+        """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
+        super().__init__(env, autopilot, also_reads)
+        self._guidance = LineOfSight(self._pilot, self._settings)
+
+    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
+        """Forget the episode before."""
+        super().reset(env)
+        self._guidance.reset()
+
+
+class PathController(GuidedJourney):
     """Leads a vehicle along a path by adaptive line of sight, level and vertical."""
 
     READS: ClassVar[tuple[str, ...]] = (
@@ -74,16 +93,6 @@ class PathController(Journey):
         "commanded_speed",
         *MOTION,
     )
-
-    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
-        """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        super().__init__(env, autopilot)
-        self._guidance = LineOfSight(self._pilot, self._settings)
-
-    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
-        """Forget the episode before."""
-        super().reset(env)
-        self._guidance.reset()
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""

@@ -8,20 +8,19 @@ import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.controllers.autopilot import PITCH, YAW, Array, Attitude, Order
-from dq_marine.agents.controllers.dead_reckoning import carried
+from dq_marine.agents.controllers.dead_reckoning import Gone, carried, gone
 from dq_marine.agents.controllers.fresh_readings import FreshReadings
 from dq_marine.agents.controllers.guidance import levelled
-from dq_marine.agents.controllers.journeys import Journey
-from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
+from dq_marine.agents.controllers.journeys import GuidedJourney
+from dq_marine.agents.controllers.line_of_sight import Offset
 from dq_marine.agents.controllers.profiles import Ground
 from dq_marine.agents.environments import marine
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import AutopilotSettings, GroundSettings
-from dq_marine.algebra.vector3 import Vector3
 from dq_marine.task.world.beams import Fan, directions_of
 
 
-class GroundJourney(Journey):
+class GroundJourney(GuidedJourney):
     """A journey over ground whose echoes are remembered."""
 
     def __init__(
@@ -38,7 +37,6 @@ class GroundJourney(Journey):
         task, length = marine(env).task_settings, self._vehicle.dimensions.length
         self._over_ground = settings or read_settings("over_ground", GroundSettings)
         self._altitude, self._reach = task.altitude * length, task.reach * length
-        self._guidance = LineOfSight(self._pilot, self._settings)
         self._ground = Ground(
             self._over_ground.width * self._altitude, self._over_ground.behind * self._altitude
         )
@@ -46,24 +44,19 @@ class GroundJourney(Journey):
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
         super().reset(env)
-        self._guidance.reset()
         self._ground.reset()
         self._fresh.reset()
 
-    def _gone(self, attitude: Attitude) -> tuple[Vector3, float]:
-        """Return how far the vehicle has gone ahead, to starboard and down [m], and turned [rad], in a period."""
-        period = self._pilot.period
-        ahead, starboard, down = attitude.velocity_level
-        return (period * ahead, period * starboard, period * down), period * float(attitude.velocity_body[5])
+    def _gone(self, attitude: Attitude) -> Gone:
+        """Return how far the vehicle has gone in a period."""
+        return gone(attitude, self._pilot.period)
 
     def _echoes(self, readings: Array, parts: dict[str, Any], attitude: Attitude) -> Array:
         """Return what the beams have just met: ahead, to starboard and below, shape (n, 3) [m]."""
         fresh = self._fresh.of(parts)
         met = (readings < 1.0) & fresh.beams
         beams = np.array([levelled(beam, attitude.roll, attitude.pitch) for beam in self._beams_body])
-        way = [fresh.age * part for part in attitude.velocity_level]
-        turn = fresh.age * float(attitude.velocity_body[5])
-        return carried(self._reach * readings[met, None] * beams[met], way, turn)
+        return carried(self._reach * readings[met, None] * beams[met], *gone(attitude, fresh.age))
 
     def _lead(self, speed: float) -> float:
         """Return how far ahead the ground's slope is followed [m]."""

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.dead_reckoning import carried
+from dq_marine.algebra.vector3 import Vector3
 
 Array = NDArray[np.float64]
 
@@ -57,7 +58,7 @@ class Echoed:
         """Whether nothing is known."""
         return not len(self._points)
 
-    def move(self, way: tuple[float, float, float], turn: float) -> None:
+    def move(self, way: Vector3, turn: float) -> None:
         """Tell how far a vehicle has gone ahead, to starboard and down [m], and turned to starboard [rad]."""
         moved = carried(self._points, way, turn)
         self._points = moved[moved[:, 0] >= -self._behind]

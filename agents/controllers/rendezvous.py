@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from dq_marine.agents.controllers.autopilot import Attitude, seen
 from dq_marine.agents.controllers.formation_filter import turned
 from dq_marine.agents.controllers.guidance import wrapped
-from dq_marine.agents.controllers.journeys import MOTION, Journey
-from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
+from dq_marine.agents.controllers.journeys import MOTION, GuidedJourney
+from dq_marine.agents.controllers.line_of_sight import Offset
 from dq_marine.agents.controllers.partner_filter import PartnerFilter, Told
 from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.algebra.level import Level
@@ -58,7 +58,7 @@ class Partner(NamedTuple):
     v_east: float
 
 
-class RendezvousController(Journey):
+class RendezvousController(GuidedJourney):
     """Estimates where its partner is and how it goes, and closes in on a place beside it."""
 
     READS: ClassVar[tuple[str, ...]] = (
@@ -74,13 +74,11 @@ class RendezvousController(Journey):
     def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
         super().__init__(env, autopilot)
-        self._guidance = LineOfSight(self._pilot, self._settings)
         self._forget()
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
         super().reset(env)
-        self._guidance.reset()
         self._forget()
 
     def act(self, observation: Observation) -> Action:

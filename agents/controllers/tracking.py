@@ -17,12 +17,11 @@ import numpy as np
 
 from dq_marine.agents.controllers.autopilot import seen
 from dq_marine.agents.controllers.dp_controller import DPController
-from dq_marine.agents.controllers.journeys import Journey
-from dq_marine.agents.controllers.line_of_sight import LineOfSight, Offset
+from dq_marine.agents.controllers.journeys import GuidedJourney
+from dq_marine.agents.controllers.line_of_sight import Offset
 from dq_marine.agents.controllers.reading import GOAL_MOTION, GOAL_POSE
 from dq_marine.agents.controllers.rotation import crossed
 from dq_marine.agents.environments import marine
-from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
 from dq_marine.envs.core.suitability import tracks_by_steering
@@ -55,20 +54,10 @@ class TrackingController:
         return self._way.act(observation)
 
 
-class Following(Journey):
+class Following(GuidedJourney):
     """Leads a vehicle along the way of a point, and on to it."""
 
     READS = TrackingController.READS
-
-    def __init__(self, env: gym.Env[Any, Any], autopilot: AutopilotSettings | None = None) -> None:
-        """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
-        super().__init__(env, autopilot)
-        self._guidance = LineOfSight(self._pilot, self._settings)
-
-    def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
-        """Forget the episode before."""
-        super().reset(env)
-        self._guidance.reset()
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""

@@ -30,7 +30,7 @@ from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import negation, rounded, select, some
 from dq_marine.algebra.vector3 import Vector3, bounded, dot, subtract
 from dq_marine.integrator.body import Motion
-from dq_marine.task.common import SPEED_BOUND
+from dq_marine.task.common import SPEED_BOUND, next_turn
 
 SOUND_SPEED = 1500.0
 """c [m/s]."""
@@ -186,18 +186,29 @@ def first_modem(link: Link, uniforms: tuple[float, ...], index: int) -> Modem:
     )
 
 
-def slot_then(link: Link, modem: Modem, period: float) -> tuple[Any, float, float]:
-    """Return whether a slot begins some time later [s], the time since its slot began then [s], and whose it is."""
+def slot_then(link: Link, clock: float, period: float) -> tuple[Any, float]:
+    """Return whether a slot begins some time later [s], and the time since the slot of then began [s].
+
+    Args:
+        link: which has the time of a slot.
+        clock: time since the slot of now began [s].
+        period: how much later, at most a slot [s].
+    """
     # The clock is a sum of periods: half of one decides what rounding would.
-    clock = modem.clock + period
-    begins = clock > link.slot - 0.5 * period
-    turn = select(begins, select(modem.turn > SENDERS - 1.5, 0.0, modem.turn + 1.0), modem.turn)
-    return begins, select(begins, clock - link.slot, clock), turn
+    later = clock + period
+    begins = later > link.slot - 0.5 * period
+    return begins, select(begins, later - link.slot, later)
+
+
+def turn_then(modem: Modem, begins: Any) -> float:
+    """Return whose slot it is, after one may have begun."""
+    return select(begins, next_turn(modem.turn, SENDERS), modem.turn)
 
 
 def erring(link: Link, modem: Modem, uniforms: tuple[float, ...], period: float) -> Modem:
     """Return a modem with the errors of a control period later [s]: one's own, and those of who sends then, by (2)."""
-    begins, _, turn = slot_then(link, modem, period)
+    begins, _ = slot_then(link, modem.clock, period)
+    turn = turn_then(modem, begins)
     (own, of_a, of_b, of_c), (a, b, c), kept = modem.drifts, modem.left, link.kept
     errors = (modem.error, modem.lost, (of_a, of_b, of_c), (kept * a, kept * b, kept * c))
     if some(begins):
@@ -238,7 +249,8 @@ def listened(
     link: Link, modem: Modem, motion: Motion, senders: tuple[Sender, Sender, Sender], period: float
 ) -> Modem:
     """Return a modem some time later [s], which is shorter than a slot, with its motion and all senders of then."""
-    begins, clock, turn = slot_then(link, modem, period)
+    begins, clock = slot_then(link, modem.clock, period)
+    turn = turn_then(modem, begins)
     (a, b, c), (_, of_a, of_b, of_c) = senders, modem.drifts
     before, first, second, third = modem.packet, modem.last[0], modem.last[1], modem.last[2]
     packet = Packet(before.range, before.age + period, before.due, before.message)

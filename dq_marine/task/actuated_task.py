@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 from typing import Any
 
 from dq_marine.integrator.actuation import Actuation
 from dq_marine.integrator.body import Motion
 from dq_marine.task.action import ActuatedMemory
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, outcome_within
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, wrapping
 from dq_marine.task.protocol import Start
 
 
@@ -42,11 +41,10 @@ def with_actuators(task: EpisodeTask, actuation: Actuation) -> EpisodeTask:
     ) -> ActuatedMemory:
         return ActuatedMemory(later_reading(parameters, memory.task, motion, uniforms), memory.values)
 
-    return dataclasses.replace(
+    return wrapping(
         task,
         initial_memory=initial_memory,
         update_memory=update_memory,
         observe=observe,
-        outcome=outcome_within(task),
         sensing=task.sensing._replace(first=read_first, later=read_later),
     )

@@ -17,6 +17,11 @@ SPEED_BOUND = 10.0
 """Velocities are observed up to this [m/s, rad/s]."""
 
 
+def next_turn(turn: float, turns: float) -> float:
+    """Return whose turn follows, 0 to turns - 1."""
+    return select(turn > turns - 1.5, 0.0, turn + 1.0)
+
+
 def observed_velocity(measured: Motion) -> tuple[Vector3, Vector3]:
     """Return linear and angular velocity over ground in the body frame [m/s, rad/s], within `SPEED_BOUND`."""
     velocity = measured.velocity

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 from dq_marine.integrator.body import BodyState, Motion
 from dq_marine.integrator.step import StepOutcome, StepParameters
 from dq_marine.task.action import Act
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, outcome_within
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, wrapping
 from dq_marine.task.protocol import Start
 
 
@@ -165,12 +164,11 @@ def with_delays(task: EpisodeTask, delays: Delays, action_size: int, blank_obser
 
         return act_late
 
-    return replace(
+    return wrapping(
         task,
         initial_memory=initial_memory,
         update_memory=update_memory,
         observe=observe,
-        outcome=outcome_within(task),
         sensing=task.sensing._replace(first=first, later=later),
         delay_act=delay_act,
         begin_showing=begin_showing,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.selection import select, spread
@@ -132,8 +132,13 @@ class EpisodeTask:
     begin_showing: Callable[[Any, Any, Motion], Any] = all_is_shown
 
 
-def outcome_within(task: EpisodeTask) -> Callable[[EpisodeParameters, Any, Motion, float], TaskOutcome]:
-    """Return the task's outcome for a memory that wraps the task's own, which it has as `task`."""
+def wrapping(task: EpisodeTask, **functions: Any) -> EpisodeTask:
+    """Return a task whose memory wraps the task's own, which it has as `task`.
+
+    Args:
+        task: that is wrapped; its outcome is that of the task's own memory.
+        functions: what else is not as it was, by its name in `EpisodeTask`.
+    """
     task_outcome = task.outcome
 
     def outcome(
@@ -141,7 +146,7 @@ def outcome_within(task: EpisodeTask) -> Callable[[EpisodeParameters, Any, Motio
     ) -> TaskOutcome:
         return task_outcome(parameters, memory.task, motion, action_squares)
 
-    return outcome
+    return replace(task, outcome=outcome, **functions)
 
 
 def no_sum(total: float, terms: tuple[float, ...]) -> float:

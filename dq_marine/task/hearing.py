@@ -24,6 +24,7 @@ from dq_marine.task.acoustics import (
     link_of,
     packet_sent,
     packet_told,
+    slot_then,
     wandered,
 )
 
@@ -69,7 +70,7 @@ def first_hearing(link: Link, uniforms: tuple[float, ...], index: int) -> Hearin
 def disturbed(link: Link, hearing: Hearing, uniforms: tuple[float, ...], period: float) -> Hearing:
     """Return a modem with errors drawn for a packet, by `HEARING_DRAWS` uniform numbers, if one is sent next."""
     clock, packet, last, error, lost, drift = hearing
-    begins = slot_begins(link, clock + period, period)
+    begins, _ = slot_then(link, clock, period)
     if some(begins):
         normal, _ = normal_pair(uniforms[0], uniforms[1])
         drawn = (
@@ -83,15 +84,15 @@ def disturbed(link: Link, hearing: Hearing, uniforms: tuple[float, ...], period:
 
 def heard_from(link: Link, hearing: Hearing, motion: Motion, sender: Sender, period: float) -> Hearing:
     """Return a modem some time later [s], no longer than a slot, with its motion and the partner of then."""
-    clock, before = hearing.clock + period, hearing.packet
-    begins = slot_begins(link, clock, period)
+    before = hearing.packet
+    begins, clock = slot_then(link, hearing.clock, period)
     packet = Packet(before.range, before.age + period, before.due, before.message)
     if some(begins):
         sent = packet_sent(link, motion, sender, hearing.drift, hearing.error, hearing.lost)
         packet = select(begins, sent, packet)
     understood = (packet.due > 0.0) & (packet.age >= packet.due)
     return Hearing(
-        select(begins, clock - link.slot, clock),
+        clock,
         Packet(packet.range, packet.age, select(understood, -1.0, packet.due), packet.message),
         last_heard(hearing.last, packet, understood, period),
         hearing.error,
@@ -103,8 +104,3 @@ def heard_from(link: Link, hearing: Hearing, motion: Motion, sender: Sender, per
 def partner_told(link: Link, hearing: Hearing, measured: Motion, bow: Level, far: float) -> Any:
     """Return what is told of the partner's last packet; see `dq_marine.task.acoustics.packets_told`."""
     return packet_told(link, hearing.last, measured.position_ned, bow, far)
-
-
-def slot_begins(link: Link, clock: float, period: float) -> Any:
-    """Whether a slot begins at the end of a period [s]: the clock is a sum of them, half of one decides."""
-    return clock > link.slot - 0.5 * period

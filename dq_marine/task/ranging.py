@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.stages import for_each
 from dq_marine.integrator.body import Motion
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, outcome_within
+from dq_marine.task.common import next_turn
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, wrapping
 from dq_marine.task.protocol import Start
 from dq_marine.task.sensors.observing import OLDEST
 
@@ -62,11 +62,12 @@ class Telling(NamedTuple):
 
     Attributes:
         coming: (fresh readings) -> those that are under way.
-        told: (memory, fresh readings, whether it pings, whose turn it is) -> told, ages, coming.
+        told: (memory, periods since the last ping, fresh readings, whether there is one now, whose turn it is) -> told,
+            ages, coming.
     """
 
     coming: Callable[[Any], Any]
-    told: Callable[[Ranged, Any, Any, float], Any]
+    told: Callable[[Ranged, float, Any, Any, float], Any]
 
 
 def make_taken(turns: int, width: int, first: int = 0) -> Callable[[Any, float, Any, Any], Any]:
@@ -111,17 +112,16 @@ def make_telling(schedule: Schedule) -> Telling:
     take_readings, take_ages = make_taken(turns, beams // turns), make_taken(turns, 1)
     late = (latency * period,) * turns
 
-    def at_once(memory: Ranged, fresh: Any, pings: Any, turn: float) -> Any:
+    def at_once(memory: Ranged, since: float, fresh: Any, pings: Any, turn: float) -> Any:
         ages = for_each(memory.ages, older, period)
         return take_readings(pings, turn, fresh, memory.told), take_ages(pings, turn, late, ages), ()
 
-    def later(memory: Ranged, fresh: Any, pings: Any, turn: float) -> Any:
-        since, arrived = memory.since + 1.0, memory.turn
+    def later(memory: Ranged, since: float, fresh: Any, pings: Any, turn: float) -> Any:
         arrives = (since > latency - 0.5) & (since < latency + 0.5)
         ages = for_each(memory.ages, older, period)
         return (
-            take_readings(arrives, arrived, memory.coming, memory.told),
-            take_ages(arrives, arrived, late, ages),
+            take_readings(arrives, memory.turn, memory.coming, memory.told),
+            take_ages(arrives, memory.turn, late, ages),
             select(pings, fresh, memory.coming),
         )
 
@@ -161,22 +161,20 @@ def with_schedule(task: EpisodeTask, schedule: Schedule) -> EpisodeTask:
     def update_memory(parameters: Any, memory: Ranged, motion: Motion, measured: Motion) -> Ranged:
         updated = next_memory(parameters, memory.task, motion, measured)
         fresh = observe_task(parameters, updated, measured)[0]
-        pings = memory.since + 1.0 > due
-        following = select(memory.turn > last - 0.5, 0.0 * memory.turn, memory.turn + 1.0)
-        turn = select(pings, following, memory.turn)
-        told, ages, coming = tell(memory, fresh, pings, turn)
-        since = select(pings, 0.0 * memory.since, memory.since + 1.0)
-        return Ranged(told, ages, coming, since, turn, updated)
+        since = memory.since + 1.0
+        pings = since > due
+        turn = select(pings, next_turn(memory.turn, turns), memory.turn)
+        told, ages, coming = tell(memory, since, fresh, pings, turn)
+        return Ranged(told, ages, coming, select(pings, 0.0, since), turn, updated)
 
     def observe(parameters: Any, memory: Ranged, motion: Motion) -> Any:
         observed = observe_task(parameters, memory.task, motion)
         return ((memory.told, *observed[1:]), memory.ages)
 
-    return replace(
+    return wrapping(
         task,
         initial_memory=initial_memory,
         update_memory=update_memory,
         observe=observe,
-        outcome=outcome_within(task),
         sensing=task.sensing._replace(first=first, later=later),
     )

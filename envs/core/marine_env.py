@@ -23,7 +23,7 @@ from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.episode import Episode, check_entries, restored_episode, restored_generator
 from dq_marine.envs.core.observation import Observation, as_shown, observation_space
 from dq_marine.envs.core.refusal import integration_report
-from dq_marine.envs.core.shared_memory import beams_told, parameters_of, task_memory
+from dq_marine.envs.core.shared_memory import beams_told, memory_layers, parameters_of, task_memory
 from dq_marine.envs.core.shown_task import ShownTask
 from dq_marine.envs.core.start import NO_UNIFORMS, as_chosen, drawn_uniforms
 from dq_marine.envs.core.view import EpisodeView, checked_render_mode
@@ -316,7 +316,8 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
         """Return what a viewer draws now."""
         episode, of_step = self._running("snapshot"), self._parameters
         motion = self._motion(of_step, episode.body)
-        parameters, memory = parameters_of(self).task, task_memory(self)
+        parameters, layers = parameters_of(self).task, memory_layers(self)
+        memory = layers[-1]
         goal = self.definition.goal(parameters, memory)
         return Snapshot(
             time=self.time,
@@ -329,7 +330,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
             goal_position_ned=None if goal is None else np.array(goal.position_ned),
             goal_quaternion_body_to_ned=None if goal is None else np.array(goal.attitude),
             things=(*self.solid_things, *self.definition.scenery(parameters, memory)),
-            beams=beams_told(self),
+            beams=beams_told(self.definition.beams(parameters, memory), layers),
             sea=self.sea,
             sea_start=episode.clock,
         )

@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING, Any
 from dq_marine.checks import finite_number, one_of, shown, whole_number
 from dq_marine.errors import InvalidInputError
 from dq_marine.task.ranging import Schedule
+from dq_marine.task.sensors.errors import LATE
 from dq_marine.task.sensors.observing import OLDEST
 from dq_marine.task.world.rangefinders import RANGE_FINDERS, RangeFinder
 
 if TYPE_CHECKING:
     from dq_marine.vehicles import Vehicle
-
-EARLY = 1e-3
-"""Of a control period: a ping is due that early, so that round-off does not put it off to the next."""
 
 FASTEST = 1e6
 """Rate of pings [Hz]: of any above that of control there is one in every control period."""
@@ -69,15 +67,14 @@ def checked_finder(range_finder: Any, beams: Any, vehicle: Vehicle) -> dict[str,
             what is above it.
     """
     name: str = one_of("range_finder", range_finder, RANGE_FINDERS)
-    count = (
-        RANGE_FINDERS[name].beams if beams is None else whole_number("beams", beams, least=2, most=MOST_BEAMS)
-    )
+    finder = RANGE_FINDERS[name]
+    count = finder.beams if beams is None else whole_number("beams", beams, least=2, most=MOST_BEAMS)
     if count % 2:
         raise InvalidInputError(
             f"beams = {shown(beams)} is odd, and their errors are drawn in pairs; give an even number"
         )
-    if RANGE_FINDERS[name].in_air and vehicle.hydrostatics is None:
-        under_water = [other for other, finder in RANGE_FINDERS.items() if not finder.in_air]
+    if finder.in_air and vehicle.hydrostatics is None:
+        under_water = [other for other, one in RANGE_FINDERS.items() if not one.in_air]
         raise InvalidInputError(
             f"range_finder = {shown(name)} sees what is above the water, and {vehicle.name} is under it; give one of "
             f"{under_water}, or a vessel that floats"
@@ -117,7 +114,7 @@ def ping_schedule(settings: RangeSettings, beams: int, turns: int, period: float
         InvalidInputError: readings would be told after those of the next ping are taken.
     """
     pinged = period if settings.rate is None else max(period, 1.0 / settings.rate)
-    interval, latency = (math.ceil(time / period - EARLY) for time in (pinged, settings.latency))
+    interval, latency = (math.ceil(time / period - LATE) for time in (pinged, settings.latency))
     if latency > interval:
         remedy = "give a latency of at most that" + ("" if settings.rate is None else ", or a lower rate")
         raise InvalidInputError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from dq_marine.backend.packing import pack, unpack
@@ -26,25 +27,25 @@ def parameters_of(env: MarineEnv) -> EpisodeParameters:
     return unpack(env.episode_parameters({}), env.episode.episode_parameters)  # type: ignore[no-any-return]
 
 
+def memory_layers(env: MarineEnv) -> list[Any]:
+    """Return the memory of the episode in progress, and what it wraps; the task's own is the last."""
+    layers = [unpack(env.blank_memory, env.episode.memory)]
+    while isinstance(layers[-1], WRAPPINGS):
+        layers.append(layers[-1].task)
+    return layers
+
+
 def task_memory(env: MarineEnv) -> Any:
     """Return what the task of an environment remembers now."""
-    memory = unpack(env.blank_memory, env.episode.memory)
-    while isinstance(memory, WRAPPINGS):
-        memory = memory.task
-    return memory
+    return memory_layers(env)[-1]
 
 
-def beams_told(env: MarineEnv) -> tuple[Beam, ...]:
-    """Return the beams of an environment's task, with what they tell the agent now."""
-    beams = env.definition.beams(parameters_of(env).task, task_memory(env))
-    memory = unpack(env.blank_memory, env.episode.memory)
-    while isinstance(memory, WRAPPINGS):
-        if isinstance(memory, Ranged):
-            return tuple(
-                beam._replace(distance=told * beam.reach)
-                for beam, told in zip(beams, memory.told, strict=True)
-            )
-        memory = memory.task
+def beams_told(beams: Sequence[Beam], layers: Sequence[Any]) -> tuple[Beam, ...]:
+    """Return the beams of a task with what they tell the agent now, by the layers of the memory."""
+    for layer in layers:
+        if isinstance(layer, Ranged):
+            told = zip(beams, layer.told, strict=True)
+            return tuple(beam._replace(distance=share * beam.reach) for beam, share in told)
     return tuple(beams)
 
 

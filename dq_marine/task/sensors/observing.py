@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.nesting import nested
 from dq_marine.integrator.body import Motion
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Sensing, outcome_within
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Sensing, wrapping
 from dq_marine.task.protocol import Start
 from dq_marine.task.sensors.errors import (
     Instrument,
@@ -152,11 +151,10 @@ def with_sensors(task: EpisodeTask, instruments: Instruments) -> EpisodeTask:
         later,
         proceed + sum(map(later_draws, instruments)),
     )
-    return replace(
+    return wrapping(
         task,
         initial_memory=initial_memory,
         update_memory=update_memory,
         observe=observe,
-        outcome=outcome_within(task),
         sensing=sensing,
     )
