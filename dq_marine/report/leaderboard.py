@@ -329,9 +329,10 @@ def fly_all(
     asked = list(wanted)
     trained = {one.name: one for one in policies}
     missing = kept.missing(asked, trained)
-    with team(len(missing)) as pool:
-        flights = [pool.submit(fly_entry, entry, plan, trained.get(entry.agent)) for entry in missing]
-        for done in as_completed(flights):
-            kept.add(done.result())
-            after(done.result())
+    if missing:  # a cluster takes seconds to begin
+        with team(len(missing)) as pool:
+            flights = [pool.submit(fly_entry, entry, plan, trained.get(entry.agent)) for entry in missing]
+            for done in as_completed(flights):
+                kept.add(done.result())
+                after(done.result())
     return [kept.results[entry] for entry in asked]

@@ -39,12 +39,12 @@ class Pool(Protocol):
 
 
 Team = Callable[[int], AbstractContextManager[Pool]]
-"""(how many tasks there will be) -> the pool that works on them within a block."""
+"""(how many tasks there will be, one or more) -> the pool that works on them within a block."""
 
 
 def team_here(processes: int) -> Team:
     """Return the team of so many processes of this machine, or of one for each task where these are fewer."""
-    return lambda tasks: workers(max(1, min(processes, tasks)))
+    return lambda tasks: workers(min(processes, tasks))
 
 
 @contextlib.contextmanager

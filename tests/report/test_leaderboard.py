@@ -116,7 +116,8 @@ def test_a_result_is_what_evaluation_says_and_is_not_flown_again(tmp_path):
     assert result.successes == round(3 * score.success_rate)
     assert new == [result]
     again = Kept(tmp_path / "board.json", PLAN)
-    assert fly_all([ENTRY], PLAN, again, team=team_here(1), after=new.append) == [result]
+    nobody = pytest.fail  # is asked to fly
+    assert fly_all([ENTRY], PLAN, again, team=nobody, after=new.append) == [result]
     assert new == [result]
     assert Kept(tmp_path / "board.json", Plan(4, 5)).results == {}  # of another plan
     assert Kept(tmp_path / "board.json", PLAN, fresh=True).results == {}
