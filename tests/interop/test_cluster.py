@@ -18,6 +18,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore")]
 os.environ.update(SILENCE | LOOPBACK)  # read when Ray is imported
 pytest.importorskip("ray")
 
+import ray  # noqa: E402
 from ray.cluster_utils import Cluster  # noqa: E402
 
 ENTRIES = [
@@ -43,26 +44,44 @@ def fly(folder, team):
     )
 
 
-def test_nothing_is_lost_where_a_machine_is_killed_in_the_middle(tmp_path):
-    # Functions of this file, which is on no machine's path, travel whole where they are no globals.
-    def slow_square(number):
-        import ray
+def alive():
+    """The machines that the cluster takes to be alive."""
+    return {node["NodeID"] for node in ray.nodes() if node["Alive"]}
 
-        time.sleep(0.5)
-        return number * number, ray.get_runtime_context().get_node_id()
+
+def wait_until(holds):
+    """Return when `holds` does, which a busy machine may need minutes for."""
+    end = time.monotonic() + PATIENCE
+    while not holds():
+        assert time.monotonic() < end, "what was waited for did not come"
+        time.sleep(0.1)
+
+
+def test_nothing_is_lost_where_a_machine_is_killed_in_the_middle(tmp_path):
+    begun, go = tmp_path / "begun", tmp_path / "go"
+    begun.mkdir()
+
+    # Functions of this file, which is on no machine's path, travel whole where they are no globals.
+    def square(number):
+        here = ray.get_runtime_context().get_node_id()
+        (begun / here).touch()
+        while not go.exists():
+            time.sleep(0.1)
+        return number * number, here
 
     def failing(number):
         raise ValueError(f"{number} is refused")
 
-    numbers = range(12)
-    with two_machines() as (cluster, (lost, _)):
+    numbers = range(6)
+    with two_machines() as (cluster, (lost, left)):
         with cluster_workers(cluster.address, 1) as pool:
-            asked = [pool.submit(slow_square, number) for number in numbers]
-            first = [one.result(PATIENCE) for one in asked[:2]]
+            asked = [pool.submit(square, number) for number in numbers]
+            wait_until(lambda: {path.name for path in begun.iterdir()} == {lost.node_id, left.node_id})
             cluster.remove_node(lost, allow_graceful=False)
-            results = first + [one.result(PATIENCE) for one in asked[2:]]
-        assert [square for square, _ in results] == [number * number for number in numbers]
-        assert results[-1][1] != lost.node_id
+            wait_until(lambda: lost.node_id not in alive())
+            go.touch()
+            results = [one.result(PATIENCE) for one in asked]
+        assert results == [(number * number, left.node_id) for number in numbers]
         # An error of a task is the caller's, and what flies on the machine that is left flies as it does here.
         with pytest.raises(ValueError, match="3 is refused"), cluster_workers(cluster.address, 1) as pool:
             pool.submit(failing, 3).result(PATIENCE)
