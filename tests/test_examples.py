@@ -10,7 +10,14 @@ from support.sweeps import sweep
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py"))
-LONG = {"evaluate_with_plots", "hindsight_replay", "several_vessels", "ship_in_waves", "train_with_sb3"}
+LONG = {
+    "evaluate_with_plots",
+    "hindsight_replay",
+    "sensors_and_randomisation",
+    "several_vessels",
+    "ship_in_waves",
+    "train_with_sb3",
+}
 AS_ON_A_PAGE = {
     "custom_task",
     "own_force",

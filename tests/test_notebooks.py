@@ -35,6 +35,7 @@ def test_it_is_kept_without_outputs(path: Path) -> None:
     assert {cell["execution_count"] for cell in cells if cell["cell_type"] == "code"} == {None}
 
 
+@pytest.mark.sweep
 def test_the_first_steps_run_and_show_the_environment_and_its_replay(tmp_path: Path) -> None:
     """In a process of its own: what Jupyter warns of is not ours."""
     result = subprocess.run(

@@ -94,10 +94,9 @@ def test_memory_for_each_body():
     assert scene.batch(64, precision="float32").bytes_per_body < 100
 
 
-@pytest.mark.parametrize("threads", sweep([1, 2], plain=[1]))
-@pytest.mark.parametrize(
-    ("wrench_rows", "bytes_per_body"), sweep([("each", 8), ("all", 8 + 6 * 8)], plain=[("all", 8 + 6 * 8)])
-)
+@pytest.mark.sweep
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize(("wrench_rows", "bytes_per_body"), [("each", 8), ("all", 8 + 6 * 8)])
 def test_a_step_of_a_batch_leaves_nothing_behind(threads, wrench_rows, bytes_per_body):
     """It takes one number a body for a while, to count who took the fallback; a wrench for all is written out."""
     size = 2048

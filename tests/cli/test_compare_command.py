@@ -89,6 +89,7 @@ def test_variants_are_read() -> None:
         read_variants(["a: "])
 
 
+@pytest.mark.sweep
 def test_rk4_blows_up_in_the_page_and_the_integrator_does_not(tmp_path: Path) -> None:
     page = tmp_path / "integrators.html"
     result = run("compare", "--integrators", "--html", page)

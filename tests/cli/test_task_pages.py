@@ -117,6 +117,7 @@ def test_what_cannot_be_is_refused(tmp_path):
     assert_refused(run("tasks", "--pages", tmp_path / "tasks"), "is no leaderboard")
 
 
+@pytest.mark.sweep
 @pytest.mark.browser
 def test_a_picture_shows_the_scenario_under_way():
     """The vehicle, and not one colour alone."""

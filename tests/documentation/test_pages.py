@@ -21,7 +21,7 @@ from dq_marine.cli.main import app
 from dq_marine.envs import load_scenario, registered_tasks
 
 NAMES = [page.name for page in WITH_CODE]
-PLAIN = ["concepts/frames.md", "concepts/units.md", "index.md"]
+PLAIN = ["concepts/units.md", "index.md"]
 
 
 @pytest.mark.parametrize("name", sweep(NAMES, plain=PLAIN))

@@ -54,6 +54,7 @@ def test_a_wrong_dictionary_is_refused(weather, message):
         StationKeepingEnv(weather=[weather])
 
 
+@pytest.mark.sweep
 def test_episodes_meet_other_stretches_of_the_sea_and_can_be_taken_up_again():
     env = StationKeepingEnv(weather=[SEA])
     clocks = []

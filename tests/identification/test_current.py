@@ -45,6 +45,7 @@ def test_the_current_is_found_with_the_vehicles_numbers(nominal, fit):
     assert not fit.held
 
 
+@pytest.mark.sweep
 def test_without_it_the_residuals_say_that_something_is_missing(nominal, log, fit):
     still = fit_vehicle(nominal, log, Conditions(GROUPS, step=STEP))
     assert any("such as a current" in note for note in still.notes)
@@ -52,6 +53,7 @@ def test_without_it_the_residuals_say_that_something_is_missing(nominal, log, fi
     assert still.noise[6:8].min() > 1.5 * fit.noise[6:8].max()
 
 
+@pytest.mark.sweep
 def test_it_may_be_all_that_is_free_and_begins_where_it_is_given(nominal, log, fit):
     """The vehicle that was found in the water that was found: from a guess that is 0.3 m/s off."""
     guess = (CURRENT[0] + 0.3, CURRENT[1], 0.0)

@@ -25,6 +25,7 @@ def fit(*options):
     return run("vehicles", "fit", "bluerov2_heavy", "--log", "run.csv", *COMMON, *options)
 
 
+@pytest.mark.sweep
 def test_a_fitted_vehicle_is_a_file_with_its_provenance(folder):
     written(folder / "run.csv", rov_log(5, 120.0, (2,)))
     result = fit("--out", "fitted.toml", "--json")

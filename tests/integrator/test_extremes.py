@@ -5,6 +5,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from support.bodies import make_body, random_damping, random_inertia, random_quaternion
+from support.sweeps import sweep
 
 from dq_marine.errors import StepNotSolvableError
 from dq_marine.integrator.step import REFUSALS
@@ -12,7 +13,7 @@ from dq_marine.integrator.step import REFUSALS
 seeds = st.integers(0, 2**32 - 1)
 
 
-@pytest.mark.parametrize("scheme", ["midpoint", "paper"])
+@pytest.mark.parametrize("scheme", sweep(["midpoint", "paper"], plain=["midpoint"]))
 def test_a_million_free_steps(scheme):
     """Spatial momentum to 1e-12 relative, energy without drift, both unit constraints to 1e-12."""
     rng = np.random.default_rng(12)
@@ -98,6 +99,7 @@ def test_any_condition_any_mass_any_speed(seed, log_condition, log_mass, log_spe
     assert (np.abs(body.spatial_momentum - momentum) <= 1e-9 * scale * reach).all()
 
 
+@pytest.mark.sweep
 @settings(max_examples=40)
 @given(seeds, st.floats(-2.0, 6.0), st.sampled_from([2, 4]))
 def test_stiff_damping_with_any_inertia(seed, log_stiffness, order):

@@ -119,6 +119,7 @@ def test_wrong_orders_are_refused():
         stopping(sphere(), order="sideways")
 
 
+@pytest.mark.sweep
 def test_a_vehicle_that_tumbles_says_so():
     """BlueROV2 without lift, as published: nothing actuates pitch, and at full throttle Munk's moment turns it over."""
     whole = load_vehicle("bluerov2")

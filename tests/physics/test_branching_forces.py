@@ -26,6 +26,7 @@ def brake(parameters, pose, twist, time):
     return Spatial(NO_MOMENT, (-parameters[0] * u * u if u > 0.0 else 0.0, 0.0, 0.0))
 
 
+@pytest.mark.sweep
 def test_bodies_have_the_bits_of_a_single_one():
     forces = (
         ForceTerm("tether", tether, (0.5, 300.0), branches=True),

@@ -20,6 +20,7 @@ def test_tolerances_and_steps_go_from_coarse_to_fine() -> None:
         assert len(settings) > 1
 
 
+@pytest.mark.sweep
 def test_errors_fall_with_the_tolerance_and_are_the_same_again() -> None:
     case, library = CASES["munk_spheroid"], LIBRARIES["scipy_dop853"]
     first, second = (library_rows(case, library, [1e-4, 1e-8], 1, 10_000) for _ in range(2))

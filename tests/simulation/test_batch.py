@@ -165,12 +165,10 @@ def test_vehicles_in_waters_of_their_own_move_as_each_alone(size, threads):
 # Other precision and arithmetic
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("precision", "arithmetic", "rounding"),
-    sweep(
-        [("float64", "fast", 2.0**-53), ("float32", "strict", 2.0**-24)],
-        plain=[("float64", "fast", 2.0**-53)],
-    ),
+    [("float64", "fast", 2.0**-53), ("float32", "strict", 2.0**-24)],
 )
 def test_other_arithmetic_differs_by_round_off(precision, arithmetic, rounding):
     """100 steps, each of which adds some two roundings of numbers below 16; damping does not let them grow."""
@@ -251,6 +249,7 @@ def test_a_step_refused_in_the_middle_of_a_call_undoes_the_call():
     assert assert_fare_alike(batch, singles, -wrenches, 3) == {}
 
 
+@pytest.mark.sweep
 def test_a_body_whose_force_overflows_is_refused():
     rng, here = np.random.default_rng(6), np.arange(9)[:, None] == 4
     singles = bodies_with_inertias(rng, 9, **CASES["order 4, forces"])

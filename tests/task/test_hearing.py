@@ -68,6 +68,7 @@ def test_what_packets_do_not_tell_is_nought(contents, told):
     assert (shown[7] == 0.0) is (contents == "none")
 
 
+@pytest.mark.sweep
 def test_ranges_have_their_noise_packets_are_lost_and_navigations_drift():
     link = partner_link(0.5, 0.25, "position", 3.0, SLOT)
     sent = round(SLOT / PERIOD)

@@ -158,6 +158,7 @@ def test_the_command_holds_a_vehicle_against_a_file_of_ones_own(tmp_path):
     assert math.isclose(found["value"], 2.98, rel_tol=0.01)
 
 
+@pytest.mark.sweep
 def test_the_command_lets_a_vehicle_make_its_waves_by_memory(tmp_path):
     """The period of roll is 2.5 % longer: that of the pole in test_decay.py."""
     file = tmp_path / "trials.toml"

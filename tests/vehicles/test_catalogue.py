@@ -189,7 +189,8 @@ def test_an_hour_of_random_wrenches_is_finite(name):
     random_hour(body, lambda: body.step(rng.uniform(-1.0, 1.0, 6) * vehicle.wrench_limits, 25))
 
 
-@pytest.mark.parametrize("name", sweep(DRIVEN, plain=("remus100",)))
+@pytest.mark.sweep
+@pytest.mark.parametrize("name", DRIVEN)
 def test_an_hour_of_random_commands_is_finite(name):
     vehicle = load_vehicle(name)
     body = Scene(vehicle, current=(0.3, -0.1, 0.0), step=0.02, actuation="thrusters").stepper()

@@ -97,7 +97,9 @@ def test_it_turns_like_a_ship(name, degrees):
     assert turn.course_growth_rate < 0.0
 
 
-@pytest.mark.parametrize(("name", "speed"), [("tanker", 7.717), ("supply_vessel", 8.28)])
+@pytest.mark.parametrize(
+    ("name", "speed"), sweep([("tanker", 7.717), ("supply_vessel", 8.28)], plain=[("tanker", 7.717)])
+)
 def test_it_goes_straight_hands_off(name, speed):
     """At the speed that its propellers hold, from a tenth of a degree of drift and of heel.
 

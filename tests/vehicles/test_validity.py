@@ -116,6 +116,7 @@ def test_waves_above_the_limit_are_warned_of():
         high.terms(vessel, np.zeros(3))
 
 
+@pytest.mark.sweep
 def test_a_manoeuvre_that_leaves_it_says_so_once():
     slow = with_validity(speed=1.0)
     notes = acceleration(slow).notes

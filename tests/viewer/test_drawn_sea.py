@@ -99,6 +99,7 @@ def test_another_episode_begins_at_another_time_of_the_sea(drawn) -> None:
         )
 
 
+@pytest.mark.sweep
 @pytest.mark.browser
 def test_a_replay_has_the_sea_at_its_times(tmp_path: Path) -> None:
     shape, sea = SEAS["short-crested"]

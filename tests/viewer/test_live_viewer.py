@@ -88,6 +88,7 @@ def pictures_apart(milliseconds: float, count: int) -> str:
     )
 
 
+@pytest.mark.sweep
 def test_slow_motion_gives_up_sharpness_until_it_stands_still(viewer: LiveViewer, page: Page) -> None:
     draw(viewer, page, 1.4)
     with open_page(viewer.url) as slow:

@@ -146,6 +146,7 @@ def test_who_looks_elsewhere_or_begins_another_episode_lets_go(viewer, page, mid
     page.mouse("mouseReleased", x, y, held=CTRL)
 
 
+@pytest.mark.sweep
 def test_a_page_that_is_loaded_again_or_closed_lets_go(viewer) -> None:
     with open_page(viewer.url, width=1000, height=700) as other:
         for close in (False, True):

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from support.sweeps import sweep
 from viewer.devtools import Page, open_page
 from viewer.samples import ROV, snapshot
 
@@ -45,7 +46,7 @@ def test_names_are_text_and_nothing_comes_from_outside(together: Path) -> None:
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("rows", [[2], [3], [2, 2], [3, 2]], ids=str)
+@pytest.mark.parametrize("rows", sweep([[2], [3], [2, 2], [3, 2]], plain=[[2, 2]]), ids=str)
 def test_at_most_three_are_in_a_row_and_rows_are_of_about_one_length(
     rows: list[int], together: Path, tmp_path: Path
 ) -> None:

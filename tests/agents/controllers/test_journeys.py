@@ -6,6 +6,7 @@ import math
 import gymnasium as gym
 import numpy as np
 import pytest
+from support.sweeps import sweep
 
 from dq_marine.agents.controllers.autopilot import RateLoop
 from dq_marine.agents.controllers.baselines import controller_for
@@ -28,11 +29,14 @@ ANGLES = list(itertools.product((-0.4, 0.0, 0.7), (-0.9, 0.0, 0.5), (0.0, 2.0)))
 
 @pytest.mark.parametrize(
     ("task", "name"),
-    [
-        ("PathFollowing", "PathController"),
-        ("DepthHeading", "DepthHeadingController"),
-        ("WaypointTracking", "WaypointController"),
-    ],
+    sweep(
+        [
+            ("PathFollowing", "PathController"),
+            ("DepthHeading", "DepthHeadingController"),
+            ("WaypointTracking", "WaypointController"),
+        ],
+        plain=[("WaypointTracking", "WaypointController")],
+    ),
 )
 def test_the_baseline_does_the_task_in_currents(task, name):
     env = gym.make(f"dq_marine/{task}-v0", level="medium")

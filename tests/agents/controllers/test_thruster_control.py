@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 from support.fleet import vehicle_with
-from support.sweeps import sweep
 
 from dq_marine.agents.controllers.baselines import make_baseline
 from dq_marine.agents.controllers.dp_controller import DPController
@@ -30,7 +29,8 @@ def fly(**keywords: Any) -> Episode:
     return fly_episode(env, make_baseline("controller", env), seed=0, options=FAR)
 
 
-@pytest.mark.parametrize("time_constant", sweep([0.0, 0.1], plain=[0.0]))
+@pytest.mark.sweep
+@pytest.mark.parametrize("time_constant", [0.0, 0.1])
 def test_it_holds_station_by_thrusters(time_constant: float) -> None:
     vehicle = heavy(time_constant=time_constant)
     episode = fly(vehicle=vehicle, actuation="thrusters", current=(0.2, -0.2, 0.0))

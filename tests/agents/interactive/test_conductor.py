@@ -84,6 +84,7 @@ def test_at_the_helm_from_the_start_with_half_the_power(flight) -> None:
     assert agents["options"] == (HELM, "zero")
 
 
+@pytest.mark.sweep
 def test_the_current_that_is_chosen_is_felt(flight, tmp_path) -> None:
     """A vehicle that drifts goes with the water in the end."""
     script = [[Event(CURRENT[0], 0.8), Event(CURRENT[1], 90.0)]] + [[]] * 400

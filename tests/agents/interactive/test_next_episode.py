@@ -26,6 +26,7 @@ def control(chosen: NextEpisode, name: str) -> Any:
     return Panel(chosen.groups())._controls[name]
 
 
+@pytest.mark.sweep
 def test_every_task_is_offered_with_the_vehicles_that_suit_it() -> None:
     chosen = NextEpisode(DEFAULT_ENVIRONMENT)
     tasks: Choice = control(chosen, TASK)

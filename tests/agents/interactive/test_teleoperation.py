@@ -133,6 +133,7 @@ def choose(page: Page, name: str, value: str) -> None:
     page.evaluate(f"{choice}.value = '{value}'; {choice}.onchange()")
 
 
+@pytest.mark.sweep
 def test_another_vehicle_task_and_weather_are_chosen_in_the_page() -> None:
     said = "document.getElementById('notice').textContent"
     title = "document.getElementById('title').textContent"

@@ -14,6 +14,7 @@ from pathlib import Path
 import optuna
 import pytest
 from optuna.trial import TrialState
+from support.sweeps import sweep
 from support.trainings import preset, tiny
 
 from dq_marine.agents.preset_files import read_settings
@@ -111,7 +112,7 @@ def test_several_processes_try_as_many_as_were_asked_for(tmp_path: Path) -> None
     assert told == sorted(told)
 
 
-@pytest.mark.parametrize("repetition", range(4))
+@pytest.mark.parametrize("repetition", sweep(range(4), plain=[0]))
 def test_trials_that_begin_or_end_together_are_those_that_were_asked_for(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, repetition: int
 ) -> None:

@@ -64,7 +64,7 @@ def test_effort_is_that_of_the_action_that_was_sent():
     assert none["reward/effort"] == 0.0
 
 
-@pytest.mark.parametrize("delays", [{"action_delay": 1}, {"observation_delay": 1}, LATE])
+@pytest.mark.parametrize("delays", sweep([{"action_delay": 1}, {"observation_delay": 1}, LATE], plain=[LATE]))
 def test_a_delayed_episode_is_saved_copied_and_carried_with_what_is_under_way(delays):
     env = StationKeepingEnv(**delays)
     actions = actions_for(env, 10)
@@ -91,7 +91,8 @@ def test_gymnasiums_checker_passes():
     check_env(StationKeepingEnv(**LATE), skip_render_check=True)
 
 
-@pytest.mark.parametrize("case", sweep(CASES, plain=["wrench"]))
+@pytest.mark.sweep
+@pytest.mark.parametrize("case", CASES)
 def test_lanes_are_late_as_single_environments_are(case):
     keywords = CASES[case] | LATE | {"max_episode_steps": 7}
     count = 5

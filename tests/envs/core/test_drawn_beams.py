@@ -54,6 +54,7 @@ def test_marks_lie_on_pillars():
         assert nearest == pytest.approx(0.0, abs=TOLERANCE)
 
 
+@pytest.mark.sweep
 def test_marks_lie_on_the_seabed():
     env = made("TerrainFollowing", **QUIET)
     ends = ends_ned(after_some_steps(env))

@@ -98,6 +98,7 @@ def test_lanes_have_the_bits_of_single_environments(example):
     assert all(part in envs.observation_space.spaces for part in together)
 
 
+@pytest.mark.sweep
 def test_the_learning_librarys_environments_know_goals(example):
     envs = MarineVecEnv(gym.make_vec(example.ID, num_envs=2, autoreset_mode="SameStep", max_episode_steps=5))
     begun = envs.reset()

@@ -29,6 +29,7 @@ def made(vehicle=None, **keywords):
     return StationKeepingEnv(vehicle or everything(), actuation="thrusters", current=0.0, **keywords)
 
 
+@pytest.mark.sweep
 def test_the_environment_checkers_pass():
     env = gym.make(ID, actuation="thrusters", vehicle=twin_screw(time_constant=0.1), current=0.0)
     check_env(env.unwrapped, skip_render_check=True)
@@ -36,6 +37,7 @@ def test_the_environment_checkers_pass():
     assert env.unwrapped.action_names == ("port", "starboard")
 
 
+@pytest.mark.sweep
 def test_an_action_is_a_share_of_the_limit_on_its_side():
     env = made(twin_screw())
     env.reset(seed=0)

@@ -16,6 +16,7 @@ WANDERING = GaussMarkovCurrent((0.1, -0.2, 0.05), 0.2, 2.0)
 PROFILE = CurrentProfile([3.0, 5.0, 8.0], [[0.5, 0.0], [0.2, 0.3], [-0.4, 0.0]])
 
 
+@pytest.mark.sweep
 def test_a_wandering_current_begins_as_it_goes_on():
     """Over many episodes, the current at the start and ten periods later has the same mean and deviation."""
     count = 4000

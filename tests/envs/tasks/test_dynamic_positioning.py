@@ -44,6 +44,7 @@ def test_a_ship_keeps_its_place_by_its_thrusters(level):
     assert np.degrees(episode.measured["heading_error"][episode.last_third]).max() < 2.0
 
 
+@pytest.mark.sweep
 def test_on_station_means_a_minute_within_both_limits():
     env = made(level="easy")
     controller = controller_for(env)

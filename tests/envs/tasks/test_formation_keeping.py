@@ -5,7 +5,6 @@ import math
 import gymnasium as gym
 import numpy as np
 import pytest
-from support.sweeps import sweep
 
 from dq_marine.agents.controllers.baselines import controller_for
 from dq_marine.agents.controllers.formations import FormationController
@@ -152,7 +151,8 @@ def test_wrong_keywords_are_refused(name, value):
         numbers(**{name: value})
 
 
-@pytest.mark.parametrize("vehicle", sweep(VEHICLES, plain=("remus100",)))
+@pytest.mark.sweep
+@pytest.mark.parametrize("vehicle", VEHICLES)
 def test_the_baseline_keeps_its_place(vehicle):
     env = gym.make(FORMATION_KEEPING, vehicle=vehicle, level="medium")
     controller = controller_for(env)

@@ -10,6 +10,7 @@ import pytest
 from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from support.environments import StationKeepingEnv
+from support.sweeps import sweep
 from support.vector_envs import BUSY, reference, same, states
 
 import dq_marine  # noqa: F401 - registers
@@ -238,7 +239,7 @@ SETTINGS = {
 }
 
 
-@pytest.mark.parametrize("settings", SETTINGS)
+@pytest.mark.parametrize("settings", sweep(SETTINGS, plain=["one value for all", "generators"]))
 def test_setting_attributes_acts_on_the_next_episodes(settings):
     envs, gymnasiums = gym.make_vec(ID, num_envs=3), reference(3)
     for each in (envs, gymnasiums):
@@ -299,6 +300,7 @@ def test_closing_twice_is_closing():
     gym.make_vec(ID, num_envs=2).close()  # before any reset
 
 
+@pytest.mark.sweep
 @pytest.mark.browser
 def test_pictures_come_one_for_each_environment():
     envs = gym.make_vec(ID, num_envs=2, render_mode="rgb_array", current=0.0)

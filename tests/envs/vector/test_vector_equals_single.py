@@ -47,6 +47,7 @@ def test_flights_are_the_same_for_any_number_of_environments_and_threads(count, 
     assert_flights_agree(envs, Separate(count, **limits), 70, seed=count)
 
 
+@pytest.mark.sweep
 def test_a_tasks_own_instruments_draw_the_same_errors():
     """What `sense` draws, and how often a reading is lost, in every lane and after a reset."""
     envs, separate = (
@@ -199,7 +200,7 @@ ARITHMETICS = [
 """Arithmetic, precision, how far from the strict float64 result, and how large powers of ten it may meet."""
 
 
-@pytest.mark.sweep  # lanes in other arithmetic are in a plain run in tests/simulation/test_batch.py
+@pytest.mark.sweep  # in a plain run it is tests/backend/test_lane_elementary.py that computes in other arithmetic
 @pytest.mark.parametrize(("arithmetic", "precision", "tolerance", "_"), ARITHMETICS)
 def test_other_arithmetic_stays_close(arithmetic, precision, tolerance, _):
     count = 13

@@ -151,6 +151,7 @@ def test_lanes_have_the_bits_of_single_ships():
     assert_actuated_lanes_equal_singles(scene, velocities, rng.uniform(-FULL, FULL, (count, 1)), 40)
 
 
+@pytest.mark.sweep
 def test_a_current_is_what_the_ship_moves_through():
     """In a uniform current everything drifts along."""
     ends = []

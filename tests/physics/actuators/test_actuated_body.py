@@ -203,6 +203,7 @@ def test_what_cannot_be_driven_says_so():
         Scene("bluerov2_heavy", actuation="thrusters", step=-0.01)
 
 
+@pytest.mark.sweep
 def test_a_batch_has_the_bits_of_single_bodies():
     rng = np.random.default_rng(1)
     scene, n = Scene(everything(), current=(0.3, 0.1, 0.0), actuation="thrusters"), 11

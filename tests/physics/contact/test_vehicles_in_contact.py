@@ -22,6 +22,7 @@ def scene(*solids, current=(0.0, 0.0, 0.0), step=0.025):
     return Scene(ROV, current=current, solids=solids, step=step)
 
 
+@pytest.mark.sweep
 def test_what_is_pressed_onto_the_seabed_rests_over_ground_in_a_current():
     vehicle = load_vehicle(ROV)
     body = scene(

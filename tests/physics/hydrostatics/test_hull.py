@@ -141,6 +141,7 @@ def test_under_water_it_is_weight_and_buoyancy():
         assert np.allclose(deep, wrench_of(submerged, 3.0, rotation), rtol=1e-12, atol=1e-8)
 
 
+@pytest.mark.sweep
 def test_the_otter_floats_on_its_hull_as_on_its_waterplane():
     """Boxes fitted to the published numbers: alike in rest and, to some per cent, in stiffness."""
     vehicle = load_vehicle("otter")
@@ -219,6 +220,7 @@ def _depths(body, steps):
 HEELING = barge(0.35, (0.0, 0.05, 0.1), (2, 6), floats=False, damping=0.3)
 
 
+@pytest.mark.sweep
 def test_a_batch_has_the_bits_of_single_boxes():
     scene = Scene(HEELING, step=0.01, hydrostatics="hull")
     rng = np.random.default_rng(1)

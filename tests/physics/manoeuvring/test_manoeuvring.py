@@ -178,6 +178,7 @@ def test_shipmmg_itself_still_says_so():
     assert figures(np.array([x, y, psi, u, v, r])) == pytest.approx(SHIPMMG[1], rel=4e-4)
 
 
+@pytest.mark.sweep
 def test_the_order_is_kept():
     """The rudder held, a turn that is under way: everything is smooth there."""
     vehicle, counts = ship(), np.array([10, 20, 40, 80])
@@ -238,6 +239,7 @@ def test_a_hull_is_continued_without_a_jump():
     assert fast[0] == pytest.approx(fast[1], rel=1e-6)
 
 
+@pytest.mark.sweep
 def test_a_current_is_what_the_ship_moves_through():
     """In a uniform current everything drifts along."""
     ends = []

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from support.bodies import PlainBody
 from support.cummins import free_motion, retardation
+from support.sweeps import sweep
 
 from dq_marine import Scene
 from dq_marine.algebra.spatial import ZERO, from_fossen, to_fossen
@@ -56,7 +57,7 @@ def forced_wrenches(omega, h, periods, motion):
     return np.array(wrenches)
 
 
-@pytest.mark.parametrize("motion", range(6))
+@pytest.mark.parametrize("motion", sweep(range(6), plain=[2, 4]))
 def test_forced_oscillation_meets_added_mass_and_damping(motion):
     """In phase with the velocity it is -B(w), with the acceleration -(A(w) - A_inf)."""
     for omega in (0.4, 0.8, 1.5):
@@ -166,6 +167,7 @@ def test_order_4_is_of_fourth_order():
     assert slope(steps, [np.linalg.norm(end(step) - exact) for step in steps]) == pytest.approx(4.0, abs=0.35)
 
 
+@pytest.mark.sweep
 def test_alone_and_in_lanes_a_body_has_the_same_bits():
     made = scene(0.1)
     velocities = np.random.default_rng(6).normal(size=(5, 6)) * RATES

@@ -16,6 +16,7 @@ def actions(env, periods, seed=1):
     return np.random.default_rng(seed).uniform(-1.0, 1.0, (periods, *size)).astype(np.float32)
 
 
+@pytest.mark.sweep
 def test_an_episode_goes_on_where_it_was_saved():
     env = StationKeepingEnv(**KEYWORDS)
     env.reset(seed=3)

@@ -211,6 +211,7 @@ def test_hulls_in_lanes_have_the_bits_of_a_single_one():
     assert np.abs(single.velocity_body).max() > 1e-6
 
 
+@pytest.mark.sweep
 def test_a_vessel_of_the_catalogue_rides_a_long_swell():
     """Its own hydrostatics are found; it rises and falls with the surface where it is, wind or not."""
     swell = Sea(Jonswap(0.3, 12.0), 0.7, components=1)

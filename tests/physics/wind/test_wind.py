@@ -82,6 +82,7 @@ def test_a_vessel_before_the_wind_runs_as_scipy_says():
     assert math.log2(measured[0] / measured[1]) == pytest.approx(2.0, abs=0.2)
 
 
+@pytest.mark.sweep
 def test_gusts_have_the_spectrums_energy_and_the_mean_wind():
     wind = Wind(
         15.0, math.pi, Windage(2.0 / 1.225, 0.0, 1.0, 10.0, c_x=1.0), gusts=True, components=60, seed=4
