@@ -9,7 +9,6 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from numba.core.runtime import _nrt_python, rtsys
-from support.sweeps import sweep
 
 import dq_marine  # noqa: F401 - registers
 from dq_marine.backend import workers
@@ -129,7 +128,8 @@ def bytes_in(value):
     return sum(bytes_in(part) for part in parts)
 
 
-@pytest.mark.parametrize("keywords", sweep([{}, {"copy": False}, {"threads": 2}], plain=[{}]), ids=str)
+@pytest.mark.sweep
+@pytest.mark.parametrize("keywords", [{}, {"copy": False}, {"threads": 2}], ids=str)
 def test_a_step_of_a_vector_environment_leaves_nothing_behind(keywords):
     """It takes what it returns, twice: the last step's is dropped when the next one's is there."""
     envs = gym.make_vec("dq_marine/StationKeeping-v0", num_envs=256, **keywords)

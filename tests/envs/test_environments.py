@@ -75,6 +75,7 @@ def test_episodes_meet_other_stretches_of_the_sea_and_can_be_taken_up_again():
     assert np.array_equal(first, again)
 
 
+@pytest.mark.sweep
 def test_waves_move_what_holds_still_and_calm_weather_draws_nothing():
     calm, steady = StationKeepingEnv(), StationKeepingEnv(weather=[])
     rough = StationKeepingEnv(weather=[SEA])

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.bodies import make_body, random_inertia
-from support.sweeps import sweep
 from support.wild import batch_of_wild
 
 from dq_marine.errors import StepNotSolvableError
@@ -84,8 +83,9 @@ def test_wild_free_bodies_keep_energy_and_momentum(bodies, steps):
     assert refused < 0.25 * bodies  # they met a step that no number of pieces takes through
 
 
+@pytest.mark.sweep
 @pytest.mark.slow
-@pytest.mark.parametrize("bodies", sweep([200, 10_000], plain=[200]))
+@pytest.mark.parametrize("bodies", [200, 10_000])
 def test_wild_damped_bodies_gain_no_energy(bodies):
     """Beyond what the free part of a step may add; where damping matters, that is nothing at all."""
     gains = [worst_gain(energies(herd, STEPS)) for herd in herds(bodies, damped=True)]

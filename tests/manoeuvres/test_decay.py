@@ -106,6 +106,7 @@ def test_a_vehicle_without_a_righting_moment_is_refused():
         decay(sphere(), motion="roll")
 
 
+@pytest.mark.sweep
 def test_with_radiation_memory_the_roll_is_the_pole_of_the_whole_linear_system():
     """A root s of det(s^2 M + s D + s H(s) + G), H the radiation of all frequencies: no step is in it."""
     vessel = load_vehicle("supply_vessel")

@@ -50,6 +50,7 @@ def test_hoerners_coefficient_and_the_resistance_are_the_published():
         assert vehicle.damping.blended[0].alone(speed) == pytest.approx(osv.resistance(speed), rel=1e-6)
 
 
+@pytest.mark.sweep
 def test_600_kn_in_sway():
     """1.787 m/s: in pure sway drag and linear damping are a quadratic equation."""
     mine, theirs = run(IDLE, 600.0, wrench=np.array([0.0, 600e3, 0.0, 0.0, 0.0, 0.0]))

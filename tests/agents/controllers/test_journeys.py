@@ -47,6 +47,7 @@ def test_the_baseline_does_the_task_in_currents(task, name):
         assert episode.success, f"seed {seed}: {episode.measured}"
 
 
+@pytest.mark.sweep
 def test_an_agent_that_drifts_does_none_of_them():
     """The tasks are not done by themselves."""
     for task in ("PathFollowing", "DepthHeading", "WaypointTracking"):

@@ -39,6 +39,7 @@ def test_it_holds_station_by_thrusters(time_constant: float) -> None:
     assert not episode.ended_early
 
 
+@pytest.mark.sweep
 def test_without_lags_both_ways_are_the_same_flight() -> None:
     """Where nothing saturates, allocated thrusters do what the wrench would."""
     near = {"position": (0.05, 0.0, 5.0), "quaternion": (1.0, 0.0, 0.0, 0.0), "velocity": np.zeros(6)}

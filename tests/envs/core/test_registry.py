@@ -18,6 +18,7 @@ from dq_marine.envs.core.module_task import define_task
 from dq_marine.envs.core.registry import (
     register_task,
     registered_tasks,
+    short_name,
     task_named,
     tasks_suiting,
     unregister_task,
@@ -32,6 +33,8 @@ SUITED = [
 PLAIN = [(STATION_KEEPING, "bluerov2_heavy"), (WAYPOINT_TRACKING, "bluerov2_heavy")]
 each_suited = pytest.mark.parametrize(("task", "vehicle"), sweep(SUITED, plain=PLAIN))
 STEPS = 1000
+WITHOUT_SCENERY = ("DepthHeading", "DynamicPositioning", "StationKeeping")
+"""Tasks with nothing around the vehicle but water."""
 
 
 def random_flight(env, steps):
@@ -90,6 +93,18 @@ def test_it_travels_in_mid_episode(task, vehicle):
         observation, reward, *_ = twin.step(action)
         assert np.array_equal(observation, own[0])
         assert reward == own[1]
+
+
+@each_suited
+def test_an_episode_can_be_kept_and_shown(task, vehicle, tmp_path):
+    env = gym.make(task, vehicle=vehicle, record=True).unwrapped
+    env.reset(seed=0)
+    for _ in range(5):
+        env.step(np.zeros(env.action_space.shape, np.float32))
+    assert env.snapshot().things or short_name(task_named(task)) in WITHOUT_SCENERY
+    replay = tmp_path / "replay.html"
+    env.save_html(replay)
+    assert replay.stat().st_size > 10_000
 
 
 def test_every_task_is_known_to_gymnasium_and_says_what_it_is():

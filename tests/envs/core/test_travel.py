@@ -116,6 +116,7 @@ kit.define_task(
 """
 
 
+@pytest.mark.sweep
 def test_a_task_from_outside_travels_to_workers(tmp_path, monkeypatch):
     """Its module is imported in a process that is started afresh, by the name before the colon."""
     (tmp_path / "own_task.py").write_text(OWN_TASK)

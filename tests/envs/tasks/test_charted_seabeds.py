@@ -75,6 +75,7 @@ def test_what_is_drawn_is_the_seabed_of_the_chart(task):
     assert found[7, 11] == pytest.approx(depth(relief.norths[7], relief.easts[11]))
 
 
+@pytest.mark.sweep
 def test_environments_travel_with_their_chart_and_go_on_bit_for_bit():
     env = made(TERRAIN)
     env.reset(seed=1)

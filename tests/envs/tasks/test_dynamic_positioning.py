@@ -61,6 +61,7 @@ def test_on_station_means_a_minute_within_both_limits():
     assert seen == {False, True}
 
 
+@pytest.mark.sweep
 def test_a_ship_that_does_nothing_drifts_out_of_its_watch_circle():
     env = made(level="easy", current=0.75, watch_radius=20.0)
     env.reset(seed=2)
