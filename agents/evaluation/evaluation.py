@@ -9,13 +9,11 @@ from typing import Any
 
 import gymnasium as gym
 import numpy as np
-from rich.box import SIMPLE_HEAD
-from rich.table import Table
-from rich.text import Text
 
 from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.evaluation.episodes import Episode, fly_episode
 from dq_marine.agents.evaluation.metrics import Metric
+from dq_marine.util.parted_table import Column, PartedTable
 
 
 @dataclass(frozen=True)
@@ -139,40 +137,35 @@ def spread(values: Sequence[float]) -> Spread:
     return Spread(float(np.mean(values)), float(np.median(values)), float(np.percentile(values, 95)))
 
 
-def score_table(scores: Sequence[Score], notes: Sequence[str] = ()) -> Table:
-    """Return the scores as a table, each quantity as mean, median and 95th percentile; notes stand below it."""
-    table = Table(
+def score_table(scores: Sequence[Score], notes: Sequence[str] = ()) -> PartedTable:
+    """Return the scores as a table for Rich, quantities as mean, median and 95th percentile; notes stand below."""
+    return PartedTable(
+        names=[
+            Column("agent", [one.agent for one in scores], style="bold"),
+            Column("", ["mean\nmedian\n95 %" for _ in scores], style="dim"),
+        ],
+        numbers=[
+            Column("return", [_lines(one.returns, "{:.1f}".format) for one in scores]),
+            *(column for name in scores[0].metrics for column in _of_metric(name, scores)),
+            Column("success", [f"{one.success_rate:.0%}" for one in scores]),
+            Column("ended\nearly", [f"{one.early_end_rate:.0%}" for one in scores]),
+        ],
         title=f"{scores[0].episodes} episodes each, the same starts and currents for every agent",
         caption="\n".join(["steady: mean over the last third of an episode", *notes]),
-        box=SIMPLE_HEAD,
-        show_edge=False,
-        padding=0,  # the box's own blanks between columns are enough
+        ruled=True,
     )
-    # Long names take several lines, so that no number is cut.
-    table.add_column("agent", style="bold", overflow="fold", min_width=6)
-    table.add_column("", style="dim", no_wrap=True)
-    of_metrics = [heading for one in scores[0].metrics.values() for heading in _headings(one.metric)]
-    for heading in ("return", *of_metrics, "success", "ended\nearly"):
-        # As text: [m] would be taken for markup.
-        table.add_column(Text(heading), justify="right", no_wrap=True)
-    for one in scores:
-        table.add_row(one.agent, *_cells(one), end_section=True)
-    return table
 
 
-def _headings(metric: Metric) -> tuple[str, str]:
-    """Return the headings of a metric's two columns, a word on each line, so that they are narrow."""
-    unit = [f"[{metric.shown_unit}]"] if metric.unit else []
-    words = metric.label.split()
-    return "\n".join([*words, "final", *unit]), "\n".join([*words, "steady", *unit])
-
-
-def _cells(score: Score) -> list[str]:
-    cells = ["mean\nmedian\n95 %", _lines(score.returns, "{:.1f}".format)]
-    for one in score.metrics.values():
-        text = partial(one.metric.text, unit=False)
-        cells += [_lines(one.final, text), _lines(one.steady, text)]
-    return [*cells, f"{score.success_rate:.0%}", f"{score.early_end_rate:.0%}"]
+def _of_metric(name: str, scores: Sequence[Score]) -> tuple[Column, Column]:
+    """Return a metric's two columns, with a word of the heading on each line, so that they are narrow."""
+    measured = [one.metrics[name] for one in scores]
+    metric = measured[0].metric
+    words, unit = metric.label.split(), [f"[{metric.shown_unit}]"] if metric.unit else []
+    text = partial(metric.text, unit=False)
+    return (
+        Column("\n".join([*words, "final", *unit]), [_lines(one.final, text) for one in measured]),
+        Column("\n".join([*words, "steady", *unit]), [_lines(one.steady, text) for one in measured]),
+    )
 
 
 def _lines(values: Spread, text: Callable[[float], str]) -> str:

@@ -7,9 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import gymnasium as gym
-from rich.box import SIMPLE_HEAD
-from rich.table import Table
-from rich.text import Text
 
 from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.environments import make_environment
@@ -20,6 +17,7 @@ from dq_marine.envs.core.registry import full_id, registered_tasks
 from dq_marine.envs.scenarios.files import load_scenario, scenarios_of
 from dq_marine.envs.scenarios.model import Scenario
 from dq_marine.errors import InvalidInputError
+from dq_marine.util.parted_table import Column, PartedTable
 
 
 @dataclass(frozen=True)
@@ -116,24 +114,27 @@ def evaluate_scenario(
     return ScenarioScores(scenario, environment, first, scores)
 
 
-def scenarios_table(results: Sequence[ScenarioScores]) -> Table:
-    """Return what came out of several scenarios of a task as a table: means over the episodes of each."""
-    table = Table(
+def scenarios_table(results: Sequence[ScenarioScores]) -> PartedTable:
+    """Return what came out of several scenarios of a task as a table for Rich: means over the episodes of each."""
+    scores = [score for result in results for score in result.scores]
+    numbers = [
+        Column("success", [f"{one.success_rate:.0%}" for one in scores]),
+        Column("return", [f"{one.returns.mean:.1f}" for one in scores]),
+    ]
+    for name, first in scores[0].metrics.items():
+        metric = first.metric
+        unit = [f"[{metric.shown_unit}]"] if metric.unit else []
+        means = [metric.text(one.metrics[name].steady.mean, unit=False) for one in scores]
+        numbers.append(Column("\n".join([*metric.label.split(), *unit]), means))
+    numbers.append(Column("effort", [f"{one.effort.mean:.3f}" for one in scores]))
+    hits = [one.collision_rate for one in scores if one.collision_rate is not None]
+    if len(hits) == len(scores):
+        numbers.append(Column("collided", [f"{hit:.0%}" for hit in hits]))
+    return PartedTable(
+        names=[
+            Column("scenario", [result.scenario.name for result in results for _ in result.scores]),
+            Column("agent", [one.agent for one in scores]),
+        ],
+        numbers=numbers,
         caption="metrics: mean over the last third of an episode; effort: mean square of the actions",
-        box=SIMPLE_HEAD,
-        pad_edge=False,
     )
-    for name in ("scenario", "agent"):
-        table.add_column(name, no_wrap=True)
-    metrics = [one.metric for one in results[0].scores[0].metrics.values()]
-    units = [f"{one.label} [{one.shown_unit}]" if one.unit else one.label for one in metrics]
-    measured = results[0].scores[0].collision_rate is not None
-    for heading in ("success", "return", *units, "effort", *(["collided"] if measured else [])):
-        table.add_column(Text(heading.replace(" ", "\n")), justify="right")
-    for result in results:
-        for score in result.scores:
-            steady = [one.metric.text(one.steady.mean, unit=False) for one in score.metrics.values()]
-            hit = [] if score.collision_rate is None else [f"{score.collision_rate:.0%}"]
-            numbers = [f"{score.success_rate:.0%}", f"{score.returns.mean:.1f}", *steady]
-            table.add_row(result.scenario.name, score.agent, *numbers, f"{score.effort.mean:.3f}", *hit)
-    return table
