@@ -57,7 +57,7 @@ TaskOption = Annotated[
     typer.Option(
         "--task",
         help="Name of a task, or id as for gym.make; MODULE:ID imports a module first, which registers it.",
-        show_default="dq_marine/StationKeeping-v0, or the preset's or run's",
+        show_default="StationKeeping, or the preset's or run's",
     ),
 ]
 VehicleOption = Annotated[
