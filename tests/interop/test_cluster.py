@@ -25,7 +25,7 @@ ENTRIES = [
     Entry("dq_marine/StationKeeping-v0", "bluerov2_heavy", "easy", agent) for agent in ("zero", "controller")
 ]
 PLAN = Plan(2, 7)
-PATIENCE = 300.0  # of a busy machine, to begin workers [s]
+PATIENCE = 900.0  # of a busy machine, to begin workers [s]
 
 
 @contextlib.contextmanager
