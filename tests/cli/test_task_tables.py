@@ -9,10 +9,9 @@ from pathlib import Path
 import pytest
 from support.command_line import assert_refused, run
 
-from dq_marine.envs.core.registry import registered_tasks
+from dq_marine.envs.core.registry import shipped_tasks
 from dq_marine.simulation.settings import Settings
 
-OURS = [task for task in registered_tasks() if task.id.startswith("dq_marine/")]
 README = (Path(__file__).parents[2] / "README.md").read_text()
 
 
@@ -36,7 +35,7 @@ def test_the_readme_has_the_observation_of_station_keeping():
     assert f"**observation**\n\n{table}\n" in result.stdout
 
 
-@pytest.mark.parametrize("task", OURS, ids=lambda task: task.id)
+@pytest.mark.parametrize("task", shipped_tasks(), ids=lambda task: task.id)
 def test_a_task_is_described_by_id_or_name(task):
     name = re.fullmatch(r"dq_marine/(\w+)-v0", task.id)[1]
     by_id, by_name = run("tasks", task.id, "--markdown"), run("tasks", name, "--markdown")

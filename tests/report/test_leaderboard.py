@@ -11,7 +11,7 @@ from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.evaluation import evaluate
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.cli.main import app
-from dq_marine.envs.core.registry import registered_tasks
+from dq_marine.envs.core.registry import shipped_tasks
 from dq_marine.envs.scenarios.environment import make_scenario
 from dq_marine.envs.scenarios.files import load_scenario, scenarios_of
 from dq_marine.errors import InvalidInputError
@@ -38,9 +38,7 @@ PLAN = Plan(3, 5)
 
 def test_every_task_is_flown_with_every_vehicle_that_it_suits():
     found = entries([], [], ["medium"], ["controller"])
-    assert {one.task for one in found} == {
-        one.id for one in registered_tasks() if one.id.startswith("dq_marine/")
-    }
+    assert {one.task for one in found} == {one.id for one in shipped_tasks()}
     assert ENTRY in found
     assert not any(one.task == STATION_KEEPING and one.vehicle == "remus100" for one in found)
     assert len(set(found)) == len(found)

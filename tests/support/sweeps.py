@@ -1,8 +1,8 @@
 """Broad sweeps: run in CI and with `--sweeps`, left out of a plain `make test`.
 
 A sweep repeats a law over many vehicles, schemes or conditions, each of which must be compiled; the cases of it that
-are no sweeps say in a plain run whether it holds. What takes long for a single case is a sweep as a whole: plain runs
-have it in a smaller setting elsewhere. A law that holds for all inputs is tried on fewer of them in a plain run.
+are no sweeps say in a plain run whether it holds. What takes long for a single case is a sweep as a whole, and CI's
+alone. A law that holds for all inputs is tried on fewer of them in a plain run.
 """
 
 from __future__ import annotations

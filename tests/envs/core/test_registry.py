@@ -11,25 +11,22 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 from stable_baselines3.common.env_checker import check_env as check_env_for_sb3
 from support.environments import STATION_KEEPING, WAYPOINT_TRACKING
+from support.suited import SUITED
 from support.sweeps import sweep
 
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.envs.core.module_task import define_task
 from dq_marine.envs.core.registry import (
     register_task,
-    registered_tasks,
+    shipped_tasks,
     short_name,
     task_named,
-    tasks_suiting,
     unregister_task,
 )
 from dq_marine.errors import InvalidInputError
-from dq_marine.vehicles import load_vehicle, vehicle_names
+from dq_marine.vehicles import load_vehicle
 
-OWN = [task.id for task in registered_tasks() if task.id.startswith("dq_marine/")]
-SUITED = [
-    (task, name) for name in vehicle_names() for task in tasks_suiting(load_vehicle(name)) if task in OWN
-]
+OWN = [task.id for task in shipped_tasks()]
 PLAIN = [(STATION_KEEPING, "bluerov2_heavy"), (WAYPOINT_TRACKING, "bluerov2_heavy")]
 each_suited = pytest.mark.parametrize(("task", "vehicle"), sweep(SUITED, plain=PLAIN))
 STEPS = 1000

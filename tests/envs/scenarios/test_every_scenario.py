@@ -9,15 +9,13 @@ import pytest
 from support.sweeps import sweep
 
 from dq_marine.envs.core.observation import Observation
-from dq_marine.envs.core.registry import TaskDefinition, registered_tasks, short_name
+from dq_marine.envs.core.registry import TaskDefinition, shipped_tasks, short_name
 from dq_marine.envs.scenarios.environment import make_scenario
 from dq_marine.envs.scenarios.files import FOLDER, read_scenarios, scenarios_of
 from dq_marine.errors import UnsuitableVehicleWarning
 
 LEAST = 20
-OURS = [task for task in registered_tasks() if task.id.startswith("dq_marine/")]
-
-PLAIN = [task for task in OURS if short_name(task) in ("StationKeeping", "Encounter")]
+PLAIN = [task for task in shipped_tasks() if short_name(task) in ("StationKeeping", "Encounter")]
 
 
 def of_task(task: TaskDefinition):
@@ -34,7 +32,7 @@ def same(one: Observation, other: Observation) -> bool:
     return np.array_equal(one, other)
 
 
-@pytest.mark.parametrize("task", OURS, ids=short_name)
+@pytest.mark.parametrize("task", shipped_tasks(), ids=short_name)
 def test_a_task_has_twenty_scenarios_of_different_names(task):
     found = of_task(task)
     assert len(found) >= LEAST, (
@@ -44,7 +42,7 @@ def test_a_task_has_twenty_scenarios_of_different_names(task):
     assert len({one.description for one in found}) == len(found)
 
 
-@pytest.mark.parametrize("task", sweep(OURS, plain=PLAIN), ids=short_name)
+@pytest.mark.parametrize("task", sweep(shipped_tasks(), plain=PLAIN), ids=short_name)
 def test_scenarios_begin_alike_each_time_and_otherwise_than_each_other(task):
     """Nothing is compiled: an episode begins in plain Python."""
     begun = []
@@ -70,4 +68,4 @@ def test_scenarios_begin_alike_each_time_and_otherwise_than_each_other(task):
 def test_every_file_is_of_a_task_of_its_own():
     tasks = [read_scenarios(path)[0].definition.id for path in sorted(FOLDER.glob("*.toml"))]
     assert len(set(tasks)) == len(tasks)
-    assert set(tasks) <= {task.id for task in OURS}
+    assert set(tasks) <= {task.id for task in shipped_tasks()}

@@ -5,40 +5,33 @@ from pathlib import Path
 import gymnasium as gym
 import numpy as np
 import pytest
+from support.environments import STATION_KEEPING
 from support.separate import Separate, assert_flights_agree
+from support.suited import SUITED
 from support.sweeps import sweep
 
 import dq_marine
-from dq_marine.envs.core.registry import registered_tasks, short_name
-from dq_marine.vehicles import load_vehicle, vehicle_names
+from dq_marine.envs.core.registry import shipped_tasks, short_name
 
-TASKS = {short_name(one): one for one in registered_tasks() if one.id.startswith("dq_marine/")}
-FLEET = {name: load_vehicle(name) for name in vehicle_names()}
-FLIGHTS = [
-    (name, vehicle)
-    for vehicle, numbers in FLEET.items()
-    for name, task in TASKS.items()
-    if task.unsuitable(numbers) is None
-]
-"""Every task with every vehicle that it suits. `tests/envs/core/test_registry.py` flies them one by one."""
+TASKS = {short_name(one): one for one in shipped_tasks()}
 
-SOON_COMPILED = [("StationKeeping", TASKS["StationKeeping"].vehicle)]
+SOON_COMPILED = [(STATION_KEEPING, "bluerov2_heavy")]
 """Its lanes are compiled for `tests/envs/vector` already."""
 
-every_flight = pytest.mark.parametrize(("task", "vehicle"), sweep(FLIGHTS, plain=SOON_COMPILED))
+every_flight = pytest.mark.parametrize(("task", "vehicle"), sweep(SUITED, plain=SOON_COMPILED))
 every_task = pytest.mark.parametrize("task", sweep(TASKS, plain=["StationKeeping"]))
 
 
 @every_flight
 def test_lanes_are_single_environments_bit_for_bit(task, vehicle):
     limits = {"vehicle": vehicle, "max_episode_steps": 90}
-    envs = gym.make_vec(TASKS[task].id, num_envs=3, **limits)
-    assert_flights_agree(envs, Separate(3, TASKS[task].id, **limits), 300, seed=1)
+    envs = gym.make_vec(task, num_envs=3, **limits)
+    assert_flights_agree(envs, Separate(3, task, **limits), 300, seed=1)
 
 
 @every_flight
 def test_ten_thousand_random_steps_stay_finite_and_within_the_observation_space(task, vehicle):
-    envs = gym.make_vec(TASKS[task].id, num_envs=40, vehicle=vehicle)
+    envs = gym.make_vec(task, num_envs=40, vehicle=vehicle)
     envs.reset(seed=5)
     envs.action_space.seed(5)
     for _ in range(250):
