@@ -117,10 +117,9 @@ def _scores(files: Sequence[Path], evaluated: Evaluated | None) -> str:
     score, seed = evaluated.score, evaluated.seed
     rows = [("return", score.returns, "{:.1f}")]
     for one in score.metrics.values():
-        unit = f" [{one.metric.shown_unit}]" if one.metric.unit else ""
         rows += [
-            (f"{one.metric.label} at the end{unit}", one.final, "{:.4g}"),
-            (f"{one.metric.label} over the last third{unit}", one.steady, "{:.4g}"),
+            (one.metric.heading("at the end"), one.final, "{:.4g}"),
+            (one.metric.heading("over the last third"), one.steady, "{:.4g}"),
         ]
     rows += [("mean square of the actions", score.effort, "{:.4g}")]
     shares = {"success at the end": score.success_rate, "ended early": score.early_end_rate}

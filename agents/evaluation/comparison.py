@@ -165,12 +165,7 @@ def _is_at(env: gym.Env[Any, Any], start: Mapping[str, Any]) -> bool:
 
 def _flight(env: gym.Env[Any, Any], name: str, episode: Episode) -> Flight:
     """Return the recorded episode with the task's metrics as plots, and a word on how it ended."""
-    plots = {
-        f"{metric.label} [{metric.shown_unit}]" if metric.unit else metric.label: metric.shown(
-            episode.measured[metric.name]
-        )
-        for metric in episode.metrics
-    }
+    plots = {metric.heading(): metric.shown(episode.measured[metric.name]) for metric in episode.metrics}
     hit = ", having hit something" if episode.collided else ""
     caption = f"ended early, after {episode.time[-1]:.1f} s{hit}" if episode.ended_early else ""
     return replace(marine(env).recorded_flight(name), caption=caption, plots=plots)

@@ -48,7 +48,7 @@ def save_plot(episode: Episode, path: Path, *, title: str) -> None:
 
 def _draw_metric(axes: Any, time: Array, metric: Metric, values: Array) -> None:
     """Draw a metric; one with a tolerance on a logarithmic axis, where centimetres show beside metres."""
-    axes.set_ylabel(f"{metric.label} [{metric.shown_unit}]" if metric.unit else metric.label)
+    axes.set_ylabel(metric.heading())
     keep_what_carries_data(axes)
     if metric.tolerance is None:
         line = broken_at_jumps(time, values, turn=360.0) if metric.unit == "rad" else (time, values)

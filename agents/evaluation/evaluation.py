@@ -148,7 +148,7 @@ def score_table(scores: Sequence[Score], notes: Sequence[str] = ()) -> PartedTab
             Column("return", [_lines(one.returns, "{:.1f}".format) for one in scores]),
             *(column for name in scores[0].metrics for column in _of_metric(name, scores)),
             Column("success", [f"{one.success_rate:.0%}" for one in scores]),
-            Column("ended\nearly", [f"{one.early_end_rate:.0%}" for one in scores]),
+            Column("ended early", [f"{one.early_end_rate:.0%}" for one in scores]),
         ],
         title=f"{scores[0].episodes} episodes each, the same starts and currents for every agent",
         caption="\n".join(["steady: mean over the last third of an episode", *notes]),
@@ -157,14 +157,13 @@ def score_table(scores: Sequence[Score], notes: Sequence[str] = ()) -> PartedTab
 
 
 def _of_metric(name: str, scores: Sequence[Score]) -> tuple[Column, Column]:
-    """Return a metric's two columns, with a word of the heading on each line, so that they are narrow."""
+    """Return a metric's two columns."""
     measured = [one.metrics[name] for one in scores]
     metric = measured[0].metric
-    words, unit = metric.label.split(), [f"[{metric.shown_unit}]"] if metric.unit else []
     text = partial(metric.text, unit=False)
     return (
-        Column("\n".join([*words, "final", *unit]), [_lines(one.final, text) for one in measured]),
-        Column("\n".join([*words, "steady", *unit]), [_lines(one.steady, text) for one in measured]),
+        Column(metric.heading("final"), [_lines(one.final, text) for one in measured]),
+        Column(metric.heading("steady"), [_lines(one.steady, text) for one in measured]),
     )
 
 

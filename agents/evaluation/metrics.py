@@ -49,6 +49,11 @@ class Metric:
         """The name with the unit that people read at its end."""
         return f"{self.name}_{self.shown_unit}" if self.unit else self.name
 
+    def heading(self, part: str = "") -> str:
+        """Return name, part and the unit that people read, in words: "depth error final [m]"."""
+        unit = f"[{self.shown_unit}]" if self.unit else ""
+        return " ".join(word for word in (self.label, part, unit) if word)
+
     def shown(self, value: Any) -> Any:
         """Return a value, or an array of them, in the unit that people read."""
         return np.degrees(value) if self.unit == "rad" else value

@@ -122,10 +122,8 @@ def scenarios_table(results: Sequence[ScenarioScores]) -> PartedTable:
         Column("return", [f"{one.returns.mean:.1f}" for one in scores]),
     ]
     for name, first in scores[0].metrics.items():
-        metric = first.metric
-        unit = [f"[{metric.shown_unit}]"] if metric.unit else []
-        means = [metric.text(one.metrics[name].steady.mean, unit=False) for one in scores]
-        numbers.append(Column("\n".join([*metric.label.split(), *unit]), means))
+        means = [first.metric.text(one.metrics[name].steady.mean, unit=False) for one in scores]
+        numbers.append(Column(first.metric.heading(), means))
     numbers.append(Column("effort", [f"{one.effort.mean:.3f}" for one in scores]))
     hits = [one.collision_rate for one in scores if one.collision_rate is not None]
     if len(hits) == len(scores):

@@ -6,25 +6,34 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rich.box import SIMPLE_HEAD
+from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, RenderResult
-from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
 NARROW = 12
 """Characters of a name that are left together; what is longer goes on below."""
 
-UNBOUNDED = 100_000
-"""Characters, more than any table is wide."""
-
 
 @dataclass(frozen=True)
 class Column:
-    """A heading, which may take several lines, and a cell for each row, which may too."""
+    """A heading, a word of it to a line, and a cell for each row, which may take several lines too."""
 
     heading: str
     cells: Sequence[str]
     style: str = ""
+
+    @property
+    def stacked(self) -> str:
+        """The heading as it stands above the cells."""
+        return self.heading.replace(" ", "\n")
+
+    @property
+    def width(self) -> int:
+        """Characters of the longest line."""
+        return max(
+            (cell_len(line) for text in (self.stacked, *self.cells) for line in text.splitlines()), default=0
+        )
 
 
 @dataclass(frozen=True)
@@ -46,51 +55,33 @@ class PartedTable:
     ruled: bool = False
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        """Yield the parts, as many as the console is narrow."""
-        rest, first = list(self.numbers), True
-        while rest or first:
-            count = self._fitting(rest, console, options)
-            part, rest = rest[:count], rest[count:]
-            yield self._table(
-                part, title=self.title if first else None, caption=None if rest else self.caption
-            )
-            if rest:
-                yield ""
-            first = False
+        """Yield the parts; a narrower console gets more of them."""
+        *parts, last = self._parts(options.max_width)
+        title = self.title
+        for part in parts:
+            yield self._table(part, title, None)
+            yield ""
+            title = None
+        yield self._table(last, title, self.caption)
 
-    def _fitting(self, columns: Sequence[Column], console: Console, options: ConsoleOptions) -> int:
-        """Return how many of the first columns fit beside the names; at least one, however narrow the console."""
-        unbounded = options.update(width=UNBOUNDED)
-        for count in range(len(columns), 1, -1):
-            table = self._table(columns[:count], longest_name=NARROW)
-            if Measurement.get(console, unbounded, table).maximum <= options.max_width:
-                return count
-        return 1
+    def _parts(self, width: int) -> list[list[Column]]:
+        """Return the columns of each part: as many as fit beside the names, one blank apart, and at least one."""
+        room = width - sum(min(column.width, NARROW) + 1 for column in self.names) + 1
+        parts: list[list[Column]] = [[]]
+        for column in self.numbers:
+            if parts[-1] and sum(one.width + 1 for one in [*parts[-1], column]) > room:
+                parts.append([])
+            parts[-1].append(column)
+        return parts
 
-    def _table(
-        self,
-        part: Sequence[Column],
-        *,
-        longest_name: int | None = None,
-        title: str | None = None,
-        caption: str | None = None,
-    ) -> Table:
+    def _table(self, part: Sequence[Column], title: str | None, caption: str | None) -> Table:
         table = Table(title=title, caption=caption, box=SIMPLE_HEAD, show_edge=False, padding=0)
-        for column in self.names:
-            longest = max(
-                len(line) for cell in (column.heading, *column.cells) for line in cell.splitlines() or [""]
-            )
-            table.add_column(
-                Text(column.heading),
-                style=column.style,
-                overflow="fold",
-                min_width=min(longest, NARROW),
-                max_width=longest_name,
-            )
+        for name in self.names:
+            narrowest = min(name.width, NARROW)
+            table.add_column(Text(name.stacked), style=name.style, overflow="fold", min_width=narrowest)
         for column in part:
             # As text: [m] would be taken for markup.
-            table.add_column(Text(column.heading), style=column.style, justify="right", no_wrap=True)
-        columns = [*self.names, *part]
-        for cells in zip(*(column.cells for column in columns), strict=True):
-            table.add_row(*(Text(cell) for cell in cells), end_section=self.ruled)
+            table.add_column(Text(column.stacked), style=column.style, justify="right", no_wrap=True)
+        for cells in zip(*(column.cells for column in (*self.names, *part)), strict=True):
+            table.add_row(*map(Text, cells), end_section=self.ruled)
         return table

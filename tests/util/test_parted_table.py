@@ -20,7 +20,7 @@ def printed(table: PartedTable, width: int) -> list[str]:
 
 @given(columns=st.lists(CELLS, max_size=12), width=st.integers(30, 150))
 def test_every_number_is_there_whole_beside_its_agent(columns: list[list[str]], width: int) -> None:
-    numbers = [Column(f"q{i}\n[m]", cells) for i, cells in enumerate(columns)]
+    numbers = [Column(f"q{i} [m]", cells) for i, cells in enumerate(columns)]
     lines = printed(PartedTable([AGENTS], numbers), width)
     assert all(len(line) <= width for line in lines)
     for row, agent in enumerate(AGENTS.cells):
