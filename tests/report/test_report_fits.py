@@ -118,3 +118,8 @@ def test_a_coarse_step_that_takes_long_is_no_fine_one() -> None:
 
 def test_behind_a_failure_the_first_point_that_is_exact_enough_is_the_cost() -> None:
     assert cost_at([1.0, 2.0], [math.inf, 1e-5], 1e-3) == 2.0
+
+
+def test_nobody_takes_coarser_steps_that_are_dearer():
+    assert cost_at([9.0, 8.0, 2.0, 4.0], [1e-3, 1e-4, 1e-5, 1e-6], 1e-2) == 2.0
+    assert cost_at([1.0, 9.0, 2.0, 4.0], [1.0, 1e-4, 1e-5, 1e-6], 1e-3) == 2.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import compress
 
 import numpy as np
 
@@ -87,7 +88,8 @@ def asymptotic(
 def cost_at(costs: Sequence[float], errors: Sequence[float], target: float) -> float | None:
     """Return the cost at which an error is reached, between points on straight lines of logarithms.
 
-    A point counts if the next finer one is as exact, too: others were lucky.
+    A point counts if the next finer one is as exact, too: others were lucky. Where finer points are cheaper, as beside
+    steps that a solver finds hard, the cheapest of them is the cost.
 
     Args:
         costs: of the points, from coarse to fine.
@@ -97,10 +99,15 @@ def cost_at(costs: Sequence[float], errors: Sequence[float], target: float) -> f
     Returns:
         The cost; that of the coarsest point if that is exact enough; None if no point is.
     """
-    met = [error <= target for error in errors]
-    first = next((index for index, _ in enumerate(met) if all(met[index : index + 2])), None)
-    if first is None:
+    counts = [all(error <= target for error in errors[index : index + 2]) for index in range(len(errors))]
+    if not any(counts):
         return None
+    first = counts.index(True)
+    return min([on_the_line(costs, errors, target, first), *compress(costs, counts)])
+
+
+def on_the_line(costs: Sequence[float], errors: Sequence[float], target: float, first: int) -> float:
+    """Return the cost of an error between the first point that counts and the one before; that of the point at most."""
     cost, error = costs[first], errors[first]
     if first == 0 or not math.isfinite(errors[first - 1]) or error <= 0.0:
         return cost
