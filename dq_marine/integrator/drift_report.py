@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from dq_marine.algebra.selection import by_precision, smallest_normal, spread
+from dq_marine.algebra.selection import by_precision, select, smallest_normal, spread
 from dq_marine.algebra.vector3 import Vector3, dot
 
 CONVERGED_RESIDUAL = 1e-14
@@ -71,6 +71,15 @@ def worst(first: SolverReport, second: SolverReport) -> SolverReport:
         first.on_rest_branch & second.on_rest_branch,
         first.iterations + second.iterations,
     )
+
+
+def report_of_either(wanted: bool, second: DriftReport, first: DriftReport) -> DriftReport:
+    """Return the report on the second of two attempts where it is wanted, else on the first; both took iterations."""
+    a, b = second.solver, first.solver
+    residual = select(wanted, a.relative_residual_squared, b.relative_residual_squared)
+    solved = select(wanted, a.on_rest_branch, b.on_rest_branch)
+    report = SolverReport(residual, solved, a.iterations + b.iterations)
+    return DriftReport(report, select(wanted, second.energy_kept, first.energy_kept))
 
 
 def equation_size_squared(

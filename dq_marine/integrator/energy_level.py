@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from dq_marine.algebra.selection import smallest_normal
+from dq_marine.algebra.selection import by_precision, smallest_normal
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import scale
 from dq_marine.integrator.gauss_stages import weighted_square
@@ -17,6 +17,12 @@ STEADY = 1e-8
 FAR_FROM_LEVEL = 1e-8
 """Of the energy: one step of Newton's method leaves less than the square of such an excess."""
 
+FAR_FROM_LEVEL_SINGLE = 1e-5
+"""`FAR_FROM_LEVEL` where numbers have single precision."""
+
+MOST_LEVELLINGS = 4
+"""Steps of Newton's method to an energy level, at the most."""
+
 
 class Nearer(NamedTuple):
     """An increment nearer to an energy level, the excess of energy before, and the energy it is compared with."""
@@ -24,6 +30,12 @@ class Nearer(NamedTuple):
     increment: Increment
     excess: float
     energy: float
+
+
+def is_far_from_level(nearer: Nearer) -> bool:
+    """Whether one more step of Newton's method is needed."""
+    far = by_precision(nearer.energy, FAR_FROM_LEVEL, FAR_FROM_LEVEL_SINGLE)
+    return abs(nearer.excess) > far * nearer.energy
 
 
 def levelling(length_squared: float, rate: Spatial, excess: float, energy: float) -> Spatial:

@@ -20,13 +20,20 @@ from dq_marine.algebra.dual_quaternion import (
     pose_renormalise,
 )
 from dq_marine.algebra.frames import momentum_bracket
-from dq_marine.algebra.selection import select, some, spread
+from dq_marine.algebra.selection import negation, select, some, spread
 from dq_marine.algebra.spatial import ZERO, Spatial, quadratic_form, spatial_add, spatial_dot, spatial_scale
 from dq_marine.algebra.stages import each_stage, stages_apart, stages_together
 from dq_marine.integrator.collocation import Collocation, gauss
 from dq_marine.integrator.drift import transport_momentum
-from dq_marine.integrator.drift_report import DriftReport, SolverReport, is_energy_kept, nothing_solved, worst
-from dq_marine.integrator.energy_level import FAR_FROM_LEVEL, Nearer, levelling
+from dq_marine.integrator.drift_report import (
+    DriftReport,
+    SolverReport,
+    is_energy_kept,
+    nothing_solved,
+    report_of_either,
+    worst,
+)
+from dq_marine.integrator.energy_level import MOST_LEVELLINGS, Nearer, is_far_from_level, levelling
 from dq_marine.integrator.gauss_stages import (
     FreeBody,
     FreeStage,
@@ -48,6 +55,7 @@ from dq_marine.integrator.increment import (
     shifted,
 )
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
+from dq_marine.integrator.sweeps import BRISKLY, CAREFULLY, Ending
 
 FreeSteps: TypeAlias = Callable[
     [Inertia, float, int, DualQuaternion, Spatial], tuple[DualQuaternion, Spatial, DriftReport]
@@ -57,15 +65,19 @@ FreeSteps: TypeAlias = Callable[
 FOUR = (1.0, 1.0, 1.0, 1.0)
 """Steps whose motions are found side by side, as stages are."""
 
-MOST_LEVELLINGS = 4
-"""Steps of Newton's method to an energy level, at the most."""
-
 
 class Levelled(NamedTuple):
-    """An increment after which a body has the energy it had before, and whether it nearly had it anyway."""
+    """An increment after which a body has the energy it had before.
+
+    Attributes:
+        increment: the one on the energy's level.
+        energy_kept: whether it nearly had that energy anyway.
+        settled: whether it has it now, and little had to be changed.
+    """
 
     increment: Increment
     energy_kept: bool
+    settled: bool
 
 
 def on_energy_level(body: FreeBody, increment: Increment, before: Spatial) -> Levelled:
@@ -75,14 +87,15 @@ def on_energy_level(body: FreeBody, increment: Increment, before: Spatial) -> Le
     """
     nearer = nearer_to_energy_level(body, increment, before)
     level, excess = nearer.increment, nearer.excess
-    far = abs(excess) > FAR_FROM_LEVEL * nearer.energy
+    far = is_far_from_level(nearer)
     count = 1
     while some(far) and count < MOST_LEVELLINGS:
         again = nearer_to_energy_level(body, level, before)
         level = select(far, again.increment, level)
-        far = far & (abs(again.excess) > FAR_FROM_LEVEL * nearer.energy)
+        far = far & is_far_from_level(again)
         count += 1
-    return Levelled(level, is_energy_kept(nearer.energy, nearer.energy + excess))
+    energy_kept = is_energy_kept(nearer.energy, nearer.energy + excess)
+    return Levelled(level, energy_kept, energy_kept & negation(far))
 
 
 def nearer_to_energy_level(body: FreeBody, increment: Increment, before: Spatial) -> Nearer:
@@ -124,29 +137,31 @@ class FreeMarch(NamedTuple):
     first: FreeStage
 
 
-def make_march_four(method: Collocation) -> Callable[[FreeBody, int, bool, FreeMarch], FreeMarch]:
-    """Return (body, count, whether a step was before, what is before) -> one to four steps more.
+def make_march_four(method: Collocation) -> Callable[[FreeBody, int, bool, FreeMarch, Ending], FreeMarch]:
+    """Return (body, count, whether a step was before, what is before, ending) -> one to four steps more.
 
     Their momentum is found one after the other, then their motions side by side; steps that are not wanted do not move.
     """
     sweep_stages = make_sweep_stages(method)
 
-    def one_more(body: FreeBody, wanted: bool, before: SweptStages, c: Spatial) -> SweptStages:
+    def one_more(
+        body: FreeBody, wanted: bool, before: SweptStages, c: Spatial, ending: Ending
+    ) -> SweptStages:
         if wanted:
-            return sweep_stages(body, c, before.following, True)
+            return sweep_stages(body, c, before.following, True, ending)
         like = c.linear[0]
         still = spread(ZERO, like)
         return SweptStages((still, still, still, still), still, nothing_solved(like), before.following)
 
-    def march_four(body: FreeBody, count: int, ahead: bool, before: FreeMarch) -> FreeMarch:
+    def march_four(body: FreeBody, count: int, ahead: bool, before: FreeMarch, ending: Ending) -> FreeMarch:
         c0 = before.momentum
-        first = sweep_stages(body, c0, before.first, ahead)
+        first = sweep_stages(body, c0, before.first, ahead, ending)
         c1 = spatial_add(c0, first.change)
-        second = one_more(body, count > 1, first, c1)
+        second = one_more(body, count > 1, first, c1, ending)
         c2 = spatial_add(c1, second.change)
-        third = one_more(body, count > 2, second, c2)
+        third = one_more(body, count > 2, second, c2, ending)
         c3 = spatial_add(c2, third.change)
-        fourth = one_more(body, count > 3, third, c3)
+        fourth = one_more(body, count > 3, third, c3, ending)
         p, q, r, s = first.twists, second.twists, third.twists, fourth.twists
         twists = stages_together(
             (
@@ -169,13 +184,52 @@ def make_march_four(method: Collocation) -> Callable[[FreeBody, int, bool, FreeM
     return march_four
 
 
+class FreeRun(NamedTuple):
+    """Steps of free motion: the increment of all, made consistent and levelled, and how they fared."""
+
+    increment: Increment
+    report: DriftReport
+    settled: bool
+
+
+def make_free_run(method: Collocation) -> Callable[[FreeBody, int, Spatial, Ending], FreeRun]:
+    """Return (body, steps, momentum times h, ending of the sweeps) -> steps of free motion.
+
+    They are made consistent (G6), (G10) at the end of all.
+    """
+    begin, march_four = make_begin(method), make_march_four(method)
+
+    def free_run(body: FreeBody, steps: int, start: Spatial, ending: Ending) -> FreeRun:
+        like = start.linear[0]
+        reached = FreeMarch(start, spread(AT_ONCE, like), nothing_solved(like), begin(body, start))
+        done = 0
+        while done < steps and some(reached.report.on_rest_branch):
+            reached = march_four(body, steps - done, done > 0, reached, ending)
+            done += len(FOUR)
+        moved = renormalised(reached.increment)
+        increment = consistent(math.sqrt(body.length_squared), moved, start, reached.momentum)
+        levelled = on_energy_level(body, increment, start)
+        report = DriftReport(reached.report, levelled.energy_kept)
+        return FreeRun(levelled.increment, report, levelled.settled)
+
+    return free_run
+
+
+def better(wanted: bool, run: FreeRun, before: FreeRun) -> FreeRun:
+    """Return a run where it is wanted, else that before; iterations are those of both."""
+    increment = select(wanted, run.increment, before.increment)
+    report = report_of_either(wanted, run.report, before.report)
+    return FreeRun(increment, report, select(wanted, run.settled, before.settled))
+
+
 @functools.cache
 def make_gauss_steps(stages: int) -> FreeSteps:
     """Return (inertia, h, steps, pose, momentum) -> (pose, momentum, report): steps of free motion.
 
-    They are made consistent (G6), (G10) at the end of all.
+    Their sweeps end early. Where the energy that those leave over cannot be taken away, the steps are taken once more,
+    carefully.
     """
-    begin, march_four = make_begin(gauss(stages)), make_march_four(gauss(stages))
+    free_run = make_free_run(gauss(stages))
 
     def gauss_steps(
         inertia: Inertia, h: float, steps: int, pose: DualQuaternion, momentum: Spatial
@@ -183,15 +237,15 @@ def make_gauss_steps(stages: int) -> FreeSteps:
         body = FreeBody(inertia, squared_length(inertia))
         start = spatial_scale(h, momentum)
         like = start.linear[0]
-        reached = FreeMarch(start, spread(AT_ONCE, like), nothing_solved(like), begin(body, start))
-        done = 0
-        while done < steps and some(reached.report.on_rest_branch):
-            reached = march_four(body, steps - done, done > 0, reached)
-            done += len(FOUR)
-        moved = renormalised(reached.increment)
-        increment = consistent(math.sqrt(body.length_squared), moved, start, reached.momentum)
-        levelled = on_energy_level(body, increment, start)
-        report = DriftReport(reached.report, levelled.energy_kept)
-        return moved_by(levelled.increment, pose, momentum, report)
+        wanted, ending = spread(True, like), BRISKLY
+        found = FreeRun(spread(AT_ONCE, like), DriftReport(nothing_solved(like), wanted), wanted)
+        for _ in range(2):
+            run = free_run(body, steps, start, ending)
+            found = better(wanted, run, found)
+            wanted = run.report.solver.on_rest_branch & negation(run.settled)
+            ending = CAREFULLY
+            if not some(wanted):
+                break
+        return moved_by(found.increment, pose, momentum, found.report)
 
     return gauss_steps

@@ -23,7 +23,6 @@ from dq_marine.algebra.dual_quaternion import (
     pose_position,
     pose_renormalise,
 )
-from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.quaternion import (
     Quaternion,
     quaternion_add,
@@ -32,7 +31,7 @@ from dq_marine.algebra.quaternion import (
     quaternion_multiply,
     rotate_inverse,
 )
-from dq_marine.algebra.selection import select, smallest_normal, some, spread
+from dq_marine.algebra.selection import negation, select, smallest_normal, some, spread
 from dq_marine.algebra.spatial import (
     ZERO,
     Spatial,
@@ -46,8 +45,13 @@ from dq_marine.algebra.stages import each_stage, stage_constants, stage_product,
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift import transport_momentum
-from dq_marine.integrator.drift_report import DriftReport, SolverReport, nothing_solved, worst
-from dq_marine.integrator.energy_level import FAR_FROM_LEVEL, Nearer, levelling
+from dq_marine.integrator.drift_report import (
+    DriftReport,
+    SolverReport,
+    nothing_solved,
+    report_of_either,
+    worst,
+)
 from dq_marine.integrator.forced_stages import (
     ForcedStage,
     Place,
@@ -58,14 +62,12 @@ from dq_marine.integrator.forced_stages import (
     moved_place,
     place_extent,
 )
-from dq_marine.integrator.forces import join_pose_forces, join_potentials
+from dq_marine.integrator.gauss_landing import Land, keeps_account_of_energy, left_alone, make_landing
 from dq_marine.integrator.gauss_stages import make_continued, squared_length, weighted_square
-from dq_marine.integrator.increment import Increment, as_pose, carried, consistent, shifted, unit
-from dq_marine.integrator.inertia import twist_from_momentum
+from dq_marine.integrator.increment import AT_ONCE, Increment, as_pose, consistent, unit
 from dq_marine.integrator.staged import Step
 from dq_marine.integrator.step import Composition, StepParameters
-from dq_marine.integrator.sweeps import make_sweeps, same
-from dq_marine.integrator.water import as_it_is
+from dq_marine.integrator.sweeps import BRISKLY, CAREFULLY, Ending, make_sweeps, same
 
 Steps: TypeAlias = Callable[
     [Any, float, float, int, DualQuaternion, Spatial, Spatial],
@@ -88,72 +90,6 @@ def impulse(stage: ForcedStage, way: Vector3) -> Spatial:
     return Spatial(add(moment, cross(way, force)), force)
 
 
-def make_landing(composition: Composition) -> Callable[..., Increment]:
-    """Return (surroundings, start, pose, increment, momentum it carries, work) -> the increment, levelled (G10).
-
-    Where all forces of the scene have potentials, kinetic and potential energy together change by the work of
-    the constant wrench alone, as they should. Elsewhere the increment is left as it is.
-    """
-    pushed_by_water = composition.water.at_stages.forces is not as_it_is
-    lacks_potentials = len(composition.potentials) < len(composition.pose_forces)
-    if composition.velocity_forces or lacks_potentials or pushed_by_water:
-
-        def left_alone(
-            around: Surroundings,
-            start: Place,
-            pose: DualQuaternion,
-            increment: Increment,
-            pushed: Spatial,
-            work: float,
-        ) -> Increment:
-            return increment
-
-        return left_alone
-    potential = join_potentials(composition.potentials)
-    add_pose_forces = join_pose_forces(composition.pose_forces)
-    carry = composition.water.at_stages.carry
-
-    def nearer(
-        around: Surroundings,
-        start: Place,
-        pose: DualQuaternion,
-        increment: Increment,
-        pushed: Spatial,
-        work: float,
-    ) -> Nearer:
-        parameters, square = around.parameters, around.h * around.h
-        inertia, forces = parameters.inertia, parameters.forces[0]
-        reached = pose_renormalise(dual_multiply(pose, as_pose(increment)))
-        momentum = carried(increment, pushed)
-        twist = twist_from_momentum(inertia, momentum)
-        had = 0.5 * quadratic_form(inertia.inverse, start.momentum)
-        has = 0.5 * spatial_dot(twist, momentum)
-        gained = potential(forces, reached) - potential(forces, pose) - work
-        there = carry(parameters.water, around.began, around.elapsed, reached)
-        force = add_pose_forces(forces, there, around.began + around.elapsed, around.wrench)
-        rate = spatial_add_scaled(momentum_bracket(twist, momentum), square, force)
-        excess = (has - had) + square * gained
-        delta = levelling(around.length_squared, rate, excess, around.size)
-        return Nearer(shifted(increment, delta.angular, delta.linear), excess, around.size)
-
-    def levelled(
-        around: Surroundings,
-        start: Place,
-        pose: DualQuaternion,
-        increment: Increment,
-        pushed: Spatial,
-        work: float,
-    ) -> Increment:
-        first = nearer(around, start, pose, increment, pushed, work)
-        level = first.increment
-        far = abs(first.excess) > FAR_FROM_LEVEL * first.energy
-        if some(far):
-            level = select(far, nearer(around, start, pose, level, pushed, work).increment, level)
-        return level
-
-    return levelled
-
-
 class Marched(NamedTuple):
     """What steps have come to.
 
@@ -172,7 +108,7 @@ class Marched(NamedTuple):
     first: ForcedStage
 
 
-March: TypeAlias = Callable[[Surroundings, bool, Marched], Marched]
+March: TypeAlias = Callable[[Surroundings, bool, Marched, Ending], Marched]
 
 
 def make_following(method: Collocation) -> Callable[[Surroundings, Place, ForcedStage], ForcedStage]:
@@ -200,18 +136,18 @@ def make_following(method: Collocation) -> Callable[[Surroundings, Place, Forced
 
 
 def make_march(composition: Composition, method: Collocation) -> March:
-    """Return (surroundings of the step's start, whether a step was before, what is before) -> a step more."""
+    """Return (surroundings of the step's start, whether a step was before, what is before, ending) -> a step more."""
     weights, nodes = method.weights, method.nodes
     sweep, following = make_forced_sweep(composition, method), make_following(method)
-    sweeps = make_sweeps(method, sweep, moved_place, place_extent, loose=True)
+    sweeps = make_sweeps(method, sweep, moved_place, place_extent)
 
-    def march(at_start: Surroundings, ahead: bool, before: Marched) -> Marched:
+    def march(at_start: Surroundings, ahead: bool, before: Marched, ending: Ending) -> Marched:
         parameters, length_squared, pushing, h, position, wrench, began, elapsed = at_start
         start = before.place
         size = weighted_square(length_squared, start.momentum) + pushing
         at_nodes = each_stage(nodes, later, (elapsed, h, stage_constants(nodes, start.momentum.linear[0])))
         around = Surroundings(parameters, length_squared, size, h, position, wrench, began, at_nodes)
-        found, report = sweeps(around, start, before.first, size, ahead)
+        found, report = sweeps(around, start, before.first, size, ahead, ending)
         end = follow(start, stage_sum(weights, found.rate))  # (G3), (G8)
         # The ways are computed after the sweeps: where no force asks for the position, these go without them.
         ways = each_stage(weights, add, (start.way, stage_product(method.matrix, found.rate.way)))
@@ -228,19 +164,31 @@ def make_march(composition: Composition, method: Collocation) -> March:
     return march
 
 
-def make_forced_steps(composition: Composition, method: Collocation) -> Steps:
-    """Return (parameters, time, h, steps, pose, momentum, wrench) -> (pose, momentum, report): steps of order 2s.
+class ForcedRun(NamedTuple):
+    """Steps with forces.
 
-    What the steps' pose is made consistent with, at the end of all, is the impulse of all.
+    Attributes:
+        increment: of all, made consistent and levelled.
+        given: what the forces have added to the momentum, in the axes at the start, times h.
+        report: how the sweeps fared.
+        settled: see `Landed`.
     """
-    evaluate, march, land = (
-        make_evaluate(composition),
-        make_march(composition, method),
-        make_landing(composition),
-    )
-    nodes, carry = method.nodes, composition.water.at_stages.carry
 
-    def forced_steps(
+    increment: Increment
+    given: Spatial
+    report: DriftReport
+    settled: bool
+
+
+def make_forced_run(composition: Composition, method: Collocation, land: Land) -> Callable[..., ForcedRun]:
+    """Return (parameters, time, h, steps, pose, momentum, wrench, ending of the sweeps) -> steps with forces.
+
+    What their pose is made consistent with, at the end of all, is the impulse of all.
+    """
+    evaluate, march = make_evaluate(composition), make_march(composition, method)
+    nodes = method.nodes
+
+    def forced_run(
         parameters: StepParameters,
         time: float,
         h: float,
@@ -248,7 +196,8 @@ def make_forced_steps(composition: Composition, method: Collocation) -> Steps:
         pose: DualQuaternion,
         momentum: Spatial,
         wrench: Spatial,
-    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        ending: Ending,
+    ) -> ForcedRun:
         inertia = parameters.inertia
         like = momentum.linear[0]
         length_squared = squared_length(inertia)
@@ -261,7 +210,7 @@ def make_forced_steps(composition: Composition, method: Collocation) -> Steps:
         reached = Marched(start, spread(ZERO, like), spread(0.0, like), nothing_solved(like), first)
         for step in range(steps):
             at_start = Surroundings(parameters, length_squared, pushing, h, position, wrench, time, step * h)
-            reached = march(at_start, step > 0, reached)
+            reached = march(at_start, step > 0, reached, ending)
             if not some(reached.report.on_rest_branch):
                 break
         given = to_body(pose.real, reached.given)
@@ -269,15 +218,58 @@ def make_forced_steps(composition: Composition, method: Collocation) -> Steps:
         moved = motion(start, reached.place)
         increment = consistent_twice(math.sqrt(length_squared), moved, pushed, reached.place.momentum)
         energy = 0.5 * quadratic_form(inertia.inverse, start.momentum)
-        elapsed = steps * h
-        ending = Surroundings(parameters, length_squared, energy, h, position, wrench, time, elapsed)
-        increment = land(ending, start, pose, increment, pushed, reached.work)
-        step_taken = as_pose(increment)
+        landing = Surroundings(parameters, length_squared, energy, h, position, wrench, time, steps * h)
+        landed = land(landing, start, pose, increment, pushed, reached.work)
+        report = DriftReport(reached.report, spread(True, like))
+        return ForcedRun(landed.increment, given, report, landed.settled)
+
+    return forced_run
+
+
+def better(wanted: bool, run: ForcedRun, before: ForcedRun) -> ForcedRun:
+    """Return a run where it is wanted, else that before; iterations are those of both."""
+    increment = select(wanted, run.increment, before.increment)
+    given = select(wanted, run.given, before.given)
+    report = report_of_either(wanted, run.report, before.report)
+    return ForcedRun(increment, given, report, select(wanted, run.settled, before.settled))
+
+
+def make_forced_steps(composition: Composition, method: Collocation) -> Steps:
+    """Return (parameters, time, h, steps, pose, momentum, wrench) -> (pose, momentum, report): steps of order 2s.
+
+    Where the scene keeps account of its energy, sweeps end early, and steps that leave too much of it over are taken
+    once more, carefully.
+    """
+    told = keeps_account_of_energy(composition)
+    run_of = make_forced_run(composition, method, make_landing(composition) if told else left_alone)
+    attempts, hastily = (2, BRISKLY) if told else (1, CAREFULLY)
+    carry = composition.water.at_stages.carry
+
+    def forced_steps(
+        parameters: StepParameters,
+        time: float,
+        h: float,
+        steps: int,
+        pose: DualQuaternion,
+        momentum: Spatial,
+        wrench: Spatial,
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        like = momentum.linear[0]
+        wanted, ending = spread(True, like), hastily
+        report = DriftReport(nothing_solved(like), wanted)
+        found = ForcedRun(spread(AT_ONCE, like), spread(ZERO, like), report, wanted)
+        for _ in range(attempts):
+            run = run_of(parameters, time, h, steps, pose, momentum, wrench, ending)
+            found = better(wanted, run, found)
+            wanted = run.report.solver.on_rest_branch & negation(run.settled)
+            ending = CAREFULLY
+            if not some(wanted):
+                break
+        step_taken = as_pose(found.increment)
         after = pose_renormalise(dual_multiply(pose, step_taken))
-        impulsive = spatial_add_scaled(momentum, 1.0 / h, given)
+        impulsive = spatial_add_scaled(momentum, 1.0 / h, found.given)
         given_on = transport_momentum(pose.real, after.real, pose_position(step_taken), impulsive)
-        after = carry(parameters.water, time, elapsed, after)
-        return after, given_on, DriftReport(reached.report, spread(True, like))
+        return carry(parameters.water, time, steps * h, after), given_on, found.report
 
     return forced_steps
 

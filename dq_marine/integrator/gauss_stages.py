@@ -25,7 +25,7 @@ from dq_marine.algebra.vector3 import dot
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift_report import SolverReport
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
-from dq_marine.integrator.sweeps import make_sweeps, same
+from dq_marine.integrator.sweeps import Ending, make_sweeps, same
 
 FAR = 4.0
 """Of a momentum's size, squared: where rates change by more from one step to the next, they lead astray."""
@@ -62,7 +62,7 @@ class SweptStages(NamedTuple):
     following: FreeStage
 
 
-SweepStages: TypeAlias = Callable[[FreeBody, Spatial, FreeStage, bool], SweptStages]
+SweepStages: TypeAlias = Callable[[FreeBody, Spatial, FreeStage, bool, Ending], SweptStages]
 
 
 def squared_length(inertia: Inertia) -> float:
@@ -116,7 +116,7 @@ def make_continued(method: Collocation) -> Callable[[float, float, Spatial], Any
 
 
 def make_sweep_stages(method: Collocation) -> SweepStages:
-    """Return (body, c, first evaluations, ahead) -> the stages (G1)-(G3) of a step; see `sweeps.make_sweeps`."""
+    """Return (body, c, first evaluations, ahead, ending) -> the stages (G1)-(G3); see `sweeps.make_sweeps`."""
     weights, powers = method.weights, method.powers
 
     def sweep(body: FreeBody, c: Spatial, now: FreeStage) -> Any:
@@ -124,11 +124,13 @@ def make_sweep_stages(method: Collocation) -> SweepStages:
         return each_stage(weights, free_stage, (body, y))
 
     continued = make_continued(method)
-    sweeps = make_sweeps(method, sweep, spatial_add_scaled, free_extent, loose=True)
+    sweeps = make_sweeps(method, sweep, spatial_add_scaled, free_extent)
 
-    def sweep_stages(body: FreeBody, c: Spatial, first: FreeStage, ahead: bool) -> SweptStages:
+    def sweep_stages(
+        body: FreeBody, c: Spatial, first: FreeStage, ahead: bool, ending: Ending
+    ) -> SweptStages:
         size = weighted_square(body.length_squared, c) + smallest_normal(c.linear[0])
-        found, report = sweeps(body, c, first, size, ahead)
+        found, report = sweeps(body, c, first, size, ahead, ending)
         twists = stages_apart(weights, stage_product(powers, found.twist))
         following = FreeStage(found.twist, continued(body.length_squared, size, found.rate))  # (G12)
         return SweptStages(twists, stage_sum(weights, found.rate), report, following)

@@ -26,17 +26,18 @@ from dq_marine.integrator.forced_stages import ForcedStage, Place, Surroundings,
 from dq_marine.integrator.gauss_stages import weighted_square
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.stage_newton import make_stage_newton
-from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE, kept, same
+from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE, Ending, kept, same, tolerated
 
 MAX_SWEEPS = 40
 TELLING = 4  # the sweep whose rates tell how exact the method is; tests begin there, once corners are in
-LARGEST_TELLTALE = 0.06  # of the size, squared: larger rates do not tell the error
-OF_THE_ERROR = 0.0003  # of the square of the highest power in the rates' polynomial
 SLOW = 0.25  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
 SLOWEST = 0.5  # the same: sweeps that shrink it less are not done
 HOPELESS = 1e12  # of the size, squared: sweeps that change more diverge
 CORNER_PERIOD = 3  # sweeps from one look at corners to the next: they settle sooner than the rest
 CORNER_SWEEPS = 16  # that follow corners: where zeros come and go for longer, sweeps go on without
+
+ENDING = Ending(0.0003, 0.03, 0.002, 0.06)
+"""Of sweeps, by the highest power in the polynomial through the rates."""
 
 Solve: TypeAlias = Callable[
     [Surroundings, Any, Place, ForcedStage, float],
@@ -69,11 +70,9 @@ def make_solve(
     is_stiff, inverses, newton_change = newton.wanted, newton.inverses, newton.change
     corners_of = algebra.corners
 
-    def tolerated(length_squared: float, rates: Spatial, size: float) -> float:
-        """Return the square of a change that is less than the method errs."""
-        telltale = weighted_square(length_squared, stage_sum(highest, rates))
-        telltale = min(telltale, LARGEST_TELLTALE * size)
-        return OF_THE_ERROR**2 * (telltale * telltale / size)
+    def telltale(length_squared: float, rates: Spatial) -> float:
+        """Return the square of what tells how much the method errs."""
+        return weighted_square(length_squared, stage_sum(highest, rates))
 
     def solve(
         around: Surroundings, damping: Any, start: Place, begun: ForcedStage, size: float
@@ -106,7 +105,8 @@ def make_solve(
             y = each_stage(weights, kept, (active, moved, y))
             count += 1
             if sweep == TELLING:
-                tolerance = max(tolerance, tolerated(length_squared, now.rate.momentum, size))
+                told = telltale(length_squared, now.rate.momentum)
+                tolerance = max(tolerance, tolerated(ENDING, told, size))
             if sweep >= TELLING:
                 contracts = last < SLOWEST * before
                 done = (contracts & (last * last <= tolerance * before)) | (last <= tolerance)

@@ -12,6 +12,7 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.vector3 import scale
 from dq_marine.integrator import radau_sweeps
+from dq_marine.integrator.sweeps import Ending
 from dq_marine.physics.term import ForceTerm
 
 COUNTS = {4: np.array([18, 24, 30, 36]), 6: np.array([12, 15, 18, 21]), 8: np.array([10, 11, 12, 13])}
@@ -82,7 +83,7 @@ def end_of(vehicle, scheme, order, count, settings):
 )
 def test_the_order_is_that_of_the_method_under_every_force(scheme, order, name, monkeypatch):
     """The vehicles have damping: "gauss" is Radau's method, of order 7, whose sweeps go on to round-off here."""
-    monkeypatch.setattr(radau_sweeps, "OF_THE_ERROR", 1e-9)
+    monkeypatch.setattr(radau_sweeps, "ENDING", Ending(1e-9, 0.0, 1e-9, 0.06))
     vehicle_name, settings = FORCES[name]
     vehicle = smooth(load_vehicle(vehicle_name))
     counts = COUNTS[order]

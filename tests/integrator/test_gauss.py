@@ -65,7 +65,7 @@ def brake(parameters, pose, twist, time):
 CASES = {"free": {}, "restoring, current and wrench": GRAVITY}
 
 
-COUNTS = {6: [8, 10, 13, 17], 8: [4, 5, 6, 8]}
+COUNTS = {6: [8, 10, 13, 17], 8: [5, 6, 8, 10]}
 each_order = pytest.mark.parametrize("order", sweep(COUNTS, plain=[8]))
 
 
@@ -140,9 +140,12 @@ def test_free_bodies_of_any_inertia_keep_momentum_and_energy(order, seed, condit
 
 @each_order
 def test_steps_near_the_limit_of_convergence_keep_energy(order):
-    """Bodies whose inertia differs from axis to axis by a factor of hundreds turn by radians in some steps."""
+    """Bodies whose inertia differs from axis to axis by a factor of hundreds turn by radians in some steps.
+
+    Sweeps of order 8 end early there: without a second, careful attempt, the energy of some is off by 6e-6.
+    """
     worst, counted = 0.0, 0
-    for seed in range(100):
+    for seed in range(300):
         rng = np.random.default_rng(seed)
         body = make_body(random_inertia(rng, 10.0**2.5), 0.05, scheme="gauss", order=order)
         body.reset(rng.normal(size=3), random_quaternion(rng), rng.normal(size=6))
@@ -151,8 +154,8 @@ def test_steps_near_the_limit_of_convergence_keep_energy(order):
         if not body.fallback_steps:
             counted += 1
             worst = max(worst, abs(body.kinetic_energy / energy - 1.0))
-    assert counted > 50
-    assert worst < 1e-6
+    assert counted > 150
+    assert worst < {6: 1e-6, 8: 1e-10}[order]
 
 
 @each_order

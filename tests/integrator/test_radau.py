@@ -18,6 +18,7 @@ from dq_marine.integrator.collocation import radau
 from dq_marine.integrator.corner import make_corners
 from dq_marine.integrator.radau import make_radau_method
 from dq_marine.integrator.splitting import crout, splitting
+from dq_marine.integrator.sweeps import Ending
 from dq_marine.physics.damping.formulas.diagonal import DIAGONAL
 from dq_marine.physics.matrices import angular_first, matrix6
 
@@ -161,7 +162,7 @@ def test_order_seven(name, monkeypatch):
     counts, measured = np.array([4, 6, 8, 12]), {}
     for early in (True, False):
         if not early:
-            monkeypatch.setattr(radau_sweeps, "OF_THE_ERROR", 0.0)
+            monkeypatch.setattr(radau_sweeps, "ENDING", Ending(0.0, 0.0, 0.0, 0.06))
         series = []
         for count in counts:
             body = damped_body(m, 0.5 / count, **case)
