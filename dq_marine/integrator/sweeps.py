@@ -41,7 +41,7 @@ class Ending(NamedTuple):
 CAREFULLY = Ending(0.01, 0.0, 0.01, 0.01)
 """So that sweeps leave no error that can be seen beside the method's."""
 
-BRISKLY = Ending(0.1, 3.0, 0.5, 0.04)
+BRISKLY = Ending(0.05, 3.0, 0.5, 0.04)
 """So that long steps, of little accuracy anyway, take as few sweeps as that accuracy needs. The energy that they leave
 over must be looked at: near the limit of convergence it may be anything."""
 
