@@ -69,8 +69,9 @@ def parts_reader(env: MarineEnv, names: Sequence[str]) -> Callable[[Observation]
             f"the controller reads {', '.join(names)}, and {env.definition.id} does not show {', '.join(lacking)}; "
             "give it an environment whose observation has these parts"
         )
-    ends = np.cumsum([one.size for one in env.observations]).tolist()
-    places = {one.name: slice(end - one.size, end) for one, end in zip(env.observations, ends, strict=True)}
+    shown_parts = (*env.observations, *env.privileged_observations)
+    ends = np.cumsum([one.size for one in shown_parts]).tolist()
+    places = {one.name: slice(end - one.size, end) for one, end in zip(shown_parts, ends, strict=True)}
     chosen = {name: places[name] for name in names}
     parts, size = env.observation_places, ends[-1]
 

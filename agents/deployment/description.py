@@ -148,7 +148,7 @@ def described(
     """
     env = make_environment(environment)
     inner = marine(env)
-    goals = inner.observation_places is not None
+    goals = inner.definition.has_goals
     description = PolicyDescription(
         environment=environment.model_copy(update={"id": environment.id.rpartition(":")[2]}),
         vehicle=inner.vehicle.name,

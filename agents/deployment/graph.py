@@ -11,6 +11,7 @@ import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.training.algorithms import Model
+from dq_marine.agents.training.public_part import public_space
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
 
@@ -37,18 +38,18 @@ class PolicyGraph(nn.Module):
     _high: Tensor
 
     def __init__(self, model: Model, normalisation: VecNormalize) -> None:
-        """Take a model and the running normalisation of its observations.
+        """Take a model and the running normalisation of its observations; what only a critic saw is no input.
 
         Raises:
             InvalidInputError: the model decides in a way that this package does not train.
         """
         super().__init__()
-        space = model.observation_space
+        space = public_space(model.observation_space)
         spaces = dict(space.spaces) if isinstance(space, gym.spaces.Dict) else {"observation": space}
         self.input_names = tuple(spaces)
         self.sizes = tuple(int(np.prod(one.shape or ())) for one in spaces.values())
-        self._goals = isinstance(space, gym.spaces.Dict)
-        self._normalised = nn.ModuleList(_Normalised(normalisation, name, self._goals) for name in spaces)
+        self._in_parts = isinstance(model.observation_space, gym.spaces.Dict)
+        self._normalised = nn.ModuleList(_Normalised(normalisation, name, self._in_parts) for name in spaces)
         self._decided = _decision(model.policy)
         action = model.action_space
         if not isinstance(action, gym.spaces.Box):
@@ -61,7 +62,7 @@ class PolicyGraph(nn.Module):
         """Return actions, shape (batch, m), for raw observations, each of shape (batch, n)."""
         normalised = [one(raw) for one, raw in zip(self._normalised, observations, strict=True)]
         named = dict(zip(self.input_names, normalised, strict=True))
-        decided: Tensor = self._decided(named if self._goals else normalised[0])
+        decided: Tensor = self._decided(named if self._in_parts else normalised[0])
         if self._squashed:  # within [-1, 1], to be stretched over the space, which round-off may leave
             decided = self._low + 0.5 * (decided + 1.0) * (self._high - self._low)
         return torch.maximum(torch.minimum(decided, self._high), self._low)
@@ -73,11 +74,11 @@ class _Normalised(nn.Module):
     _mean: Tensor
     _deviation: Tensor
 
-    def __init__(self, normalisation: VecNormalize, name: str, goals: bool) -> None:
+    def __init__(self, normalisation: VecNormalize, name: str, in_parts: bool) -> None:
         super().__init__()
         self._clip = float(normalisation.clip_obs)
         self._active = bool(normalisation.norm_obs)
-        if goals and normalisation.norm_obs_keys is not None:
+        if in_parts and normalisation.norm_obs_keys is not None:
             self._active = self._active and name in normalisation.norm_obs_keys
         if self._active:
             both = normalisation.obs_rms

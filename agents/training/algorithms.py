@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -33,6 +34,15 @@ OWN = {"ppo": "PPO", "sac": "SAC", "td3": "TD3"}
 
 OF_CONTRIB = {"recurrent_ppo": "RecurrentPPO", "tqc": "TQC", "crossq": "CrossQ"}
 """The same of sb3-contrib."""
+
+PRIVILEGED_POLICIES = {
+    "ppo": ("privileged_policies", "PrivilegedPPOPolicy"),
+    "sac": ("privileged_policies", "PrivilegedSACPolicy"),
+    "td3": ("privileged_policies", "PrivilegedTD3Policy"),
+    "recurrent_ppo": ("privileged_contrib_policies", "PrivilegedRecurrentPPOPolicy"),
+    "tqc": ("privileged_contrib_policies", "PrivilegedTQCPolicy"),
+}
+"""Modules and classes of policies with a privileged critic, by algorithm; those of sb3-contrib stand apart."""
 
 ACTIVATIONS = {"tanh": torch.nn.Tanh, "relu": torch.nn.ReLU}
 
@@ -77,6 +87,17 @@ def policy_name(algorithm: AlgorithmSettings, *, goals: bool) -> str:
         )
     memory = "Lstm" if isinstance(algorithm, RecurrentPPOSettings) else ""
     return ("MultiInput" if goals else "Mlp") + memory + "Policy"
+
+
+def privileged_policy(algorithm: AlgorithmSettings) -> type[Any]:
+    """Return the policy whose critic sees what only the simulator knows.
+
+    Raises:
+        MissingDependencyError: the algorithm is of sb3-contrib, which is not installed.
+    """
+    module, name = PRIVILEGED_POLICIES[algorithm.name]
+    found: type[Any] = getattr(importlib.import_module(f"dq_marine.agents.training.{module}"), name)
+    return found
 
 
 def keywords_of(settings: TrainingSettings, actions: gym.Space[Any]) -> dict[str, Any]:

@@ -7,9 +7,10 @@ from typing import Any
 import gymnasium as gym
 
 from dq_marine.agents.controllers.baselines import make_baseline
-from dq_marine.agents.environments import make_environment
+from dq_marine.agents.environments import make_environment, marine
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.lessons import lessons_of
+from dq_marine.envs.core.privileged import hides_anything
 from dq_marine.errors import InvalidInputError
 
 
@@ -33,10 +34,16 @@ def check_can_begin(settings: TrainingSettings) -> None:
 
 def _checked_spaces(settings: TrainingSettings) -> tuple[gym.Space[Any], gym.Space[Any]]:
     """Return the spaces of observations and actions of an environment in which the teacher can fly."""
-    env = make_environment(settings.environment)
+    env = make_environment(settings.learned_in)
     try:
         if settings.imitation is not None:
             make_baseline(settings.imitation.teacher, env)
+        if settings.privileged_critic and not hides_anything(marine(env)):
+            raise InvalidInputError(
+                f"privileged_critic = true, but {settings.environment.id} with {settings.environment.keywords} hides "
+                "nothing from the agent: its water is still, all its episodes fly one vehicle, and what is observed is "
+                "true; give a current, randomise or sensors, or leave privileged_critic out"
+            )
         return env.observation_space, env.action_space
     finally:
         env.close()

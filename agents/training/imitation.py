@@ -105,7 +105,7 @@ def taught(settings: TrainingSettings, imitation: ImitationSettings, random: np.
     Raises:
         InvalidInputError: the teacher cannot fly in this environment.
     """
-    env = make_environment(settings.environment)
+    env = make_environment(settings.learned_in)
     teacher = make_baseline(imitation.teacher, env, TEACHING_SEED)
     gamma = settings.algorithm.gamma
     observations: list[Any] = []
@@ -187,6 +187,5 @@ def _rows_of(observations: Any, rows: NDArray[np.int64]) -> Any:
 
 def _foretold(policy: ActorCriticPolicy, observations: Any) -> tuple[torch.Tensor, torch.Tensor]:
     """Return the mean of the actions, shape (n, axes), and the critic's values, shape (n,)."""
-    features = policy.extract_features(observations)
-    latent_policy, latent_value = policy.mlp_extractor(features)
-    return policy.action_net(latent_policy), policy.value_net(latent_value).flatten()
+    distribution: Any = policy.get_distribution(observations).distribution  # torch's normal one, not SB3's
+    return distribution.mean, policy.predict_values(observations).flatten()

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import gymnasium as gym
 
@@ -19,6 +20,7 @@ from dq_marine.agents.training.algorithms import (
     keywords_of,
     model_class,
     policy_name,
+    privileged_policy,
 )
 from dq_marine.agents.training.reward_sums import RewardSums
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
@@ -68,15 +70,21 @@ def make_model(settings: TrainingSettings, seed: int, tensorboard: Path) -> Mode
         MissingDependencyError: the library of the algorithm is not installed.
     """
     envs = make_training_envs(settings)
-    goals = isinstance(envs.observation_space, gym.spaces.Dict)
     return model_class(settings.algorithm.name)(
-        policy_name(settings.algorithm, goals=goals),
+        _policy(settings, envs.observation_space),
         envs,
         **keywords_of(settings, envs.action_space),
         seed=seed,
         tensorboard_log=str(tensorboard),
         device=DEVICE,
     )
+
+
+def _policy(settings: TrainingSettings, space: gym.Space[Any]) -> str | type[Any]:
+    """Return the policy to learn from observations of a space: a class, or what the library calls it."""
+    if settings.privileged_critic:
+        return privileged_policy(settings.algorithm)
+    return policy_name(settings.algorithm, goals=isinstance(space, gym.spaces.Dict))
 
 
 def environments_of(model: Model) -> MarineVectorEnv:
@@ -138,4 +146,4 @@ def refusing_damage(folder: Path) -> Iterator[None]:
 
 def _environments(settings: TrainingSettings, count: int) -> VecMonitor:
     """Return environments that are stepped together and report their episodes."""
-    return VecMonitor(MarineVecEnv(RewardSums(make_environments(settings.environment, count))))
+    return VecMonitor(MarineVecEnv(RewardSums(make_environments(settings.learned_in, count))))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from dq_marine.agents.environments import space_shape
 from dq_marine.agents.training.algorithms import model_class
 from dq_marine.agents.training.learners import refusing_damage
+from dq_marine.agents.training.public_part import as_seen_by_actor, normalise_public_alone, public_space
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, RunFolder
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
@@ -38,6 +39,7 @@ class TrainedPolicy:
         with refusing_damage(snapshot):
             self.model = algorithm.load(snapshot / MODEL_FILE, device="cpu")
             self.normalisation = pickle.loads((snapshot / NORMALISATION_FILE).read_bytes())  # noqa: S301 - said above
+        normalise_public_alone(self.normalisation)
         self._memory: tuple[NDArray[Any], ...] | None = None
 
     def reset(self, env: gym.Env[Any, Any]) -> None:
@@ -47,7 +49,11 @@ class TrainedPolicy:
             InvalidInputError: it was trained on other observations or actions.
         """
         for name, trained, found in (
-            ("observation", self.model.observation_space, env.observation_space),
+            (
+                "observation",
+                public_space(self.model.observation_space),
+                public_space(env.observation_space),
+            ),
             ("action", self.model.action_space, env.action_space),
         ):
             if space_shape(trained) != space_shape(found):
@@ -60,6 +66,7 @@ class TrainedPolicy:
 
     def act(self, observation: Observation) -> Action:
         """Return the most likely action, shape (n,)."""
-        seen = self.normalisation.normalize_obs(observation)
+        public = as_seen_by_actor(self.model.observation_space, observation)
+        seen = self.normalisation.normalize_obs(public)
         action, self._memory = self.model.predict(seen, state=self._memory, deterministic=True)
         return np.asarray(action, dtype=np.float32)

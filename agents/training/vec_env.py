@@ -154,7 +154,7 @@ class MarineVecEnv(VecEnv):
 
     def _reported(self, infos: dict[str, Any]) -> list[dict[str, Any]]:
         """Return what is told of environments that go on: of a task with goals, what hindsight replay needs."""
-        if self.marine.single.observation_places is None:
+        if not self.marine.single.definition.has_goals:
             return [{} for _ in range(self.num_envs)]
         terms = {name: infos[name] for name in reward_term_names(infos)}
         return _infos_at(terms, range(self.num_envs))

@@ -35,6 +35,7 @@ EXAMPLES = examples(
     "dq-marine train --run runs/docking --task Docking --imitate controller",
     "dq-marine train --run runs/lessons --task Docking --level medium --curriculum easy",
     "dq-marine train --run runs/many --set randomise=default --set sensors=auv",
+    "dq-marine train --run runs/critic --set randomise=default --privileged-critic",
     "dq-marine train --run runs/calm --set current=0.1 --set reward.effort=0.05",
     "dq-marine train --print-preset --set actuation=thrusters > my_preset.toml",
     "dq-marine train --run runs/mine --preset my_preset.toml --vehicle my_vehicle.toml",
@@ -78,6 +79,15 @@ def train(
             show_default="none, or the preset's",
         ),
     ] = None,
+    privileged_critic: Annotated[
+        bool,
+        typer.Option(
+            "--privileged-critic",
+            help="Let the critic see what only the simulator knows: current, drawn parameters, truth behind sensors. "
+            "The policy does not.",
+            show_default="no, or the preset's",
+        ),
+    ] = False,
     seed: Annotated[
         int | None,
         typer.Option(
@@ -119,6 +129,7 @@ def train(
             imitate=imitate,
             curriculum=curriculum,
             force=force,
+            **{"privileged-critic": privileged_critic},
             **options.given(),
         )
         settings = None
@@ -131,6 +142,7 @@ def train(
             envs=envs,
             teacher=imitate,
             curriculum=curriculum,
+            privileged_critic=privileged_critic,
         )
     if run is None or only_print:
         print_preset(settings or RunFolder(run or "").read_plan().settings)

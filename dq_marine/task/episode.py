@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.selection import select, spread
+from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.body import Motion
 from dq_marine.task.protocol import Situation, Start, Task
 
@@ -22,6 +23,7 @@ class EpisodeParameters(NamedTuple):
         wrench_limits: wrench at full action [N, N m], Fossen's order.
         actions: how many numbers the agent's action has.
         sensors: their numbers, nested in pairs; see `task.sensors.observing`.
+        vehicle: in what the vehicle is not the nominal one, where that is revealed; see `task.privileged`.
     """
 
     task: Any
@@ -30,6 +32,7 @@ class EpisodeParameters(NamedTuple):
     wrench_limits: tuple[float, float, float, float, float, float]
     actions: float
     sensors: Any
+    vehicle: tuple[float, ...] = ()
 
 
 class Report(NamedTuple):
@@ -100,12 +103,17 @@ def all_is_shown(parameters: Any, memory: Any, motion: Motion) -> Any:
     return memory
 
 
+def nothing_revealed(parameters: EpisodeParameters, memory: Any, motion: Motion, current_ned: Vector3) -> Any:
+    """Return nothing: what only the simulator knows stays with it."""
+    return ()
+
+
 @dataclass(frozen=True)
 class EpisodeTask:
     """The functions that an episode runs.
 
     `start`, `initial_memory`, `update_memory` and `observe` take the task's own parameters, as in `task.protocol`;
-    `outcome` and the sensors take `EpisodeParameters`.
+    `outcome`, `reveal` and the sensors take `EpisodeParameters`.
 
     Attributes:
         draws: how many uniform random numbers in [0, 1) `start` and `initial_memory` take.
@@ -118,6 +126,8 @@ class EpisodeTask:
         sensing: what sensors do to the memory.
         delay_act: (`task.action.Act`) -> the same, for actions that arrive late; see `task.delays`.
         begin_showing: (parameters, memory, motion) -> memory of an episode whose first observation is made anew.
+        reveal: (parameters, memory, motion, current in NED) -> what only the simulator knows, nested tuples of numbers
+            that follow those of `observe`; see `task.privileged`.
     """
 
     draws: int
@@ -130,23 +140,40 @@ class EpisodeTask:
     sensing: Sensing = NO_SENSORS
     delay_act: Callable[[Callable[..., Any]], Callable[..., Any]] = act_at_once
     begin_showing: Callable[[Any, Any, Motion], Any] = all_is_shown
+    reveal: Callable[[EpisodeParameters, Any, Motion, Vector3], Any] = nothing_revealed
 
 
 def wrapping(task: EpisodeTask, **functions: Any) -> EpisodeTask:
     """Return a task whose memory wraps the task's own, which it has as `task`.
 
     Args:
-        task: that is wrapped; its outcome is that of the task's own memory.
+        task: that is wrapped; its outcome, and what it reveals, are those of the task's own memory.
         functions: what else is not as it was, by its name in `EpisodeTask`.
     """
-    task_outcome = task.outcome
+    task_outcome, task_reveal = task.outcome, task.reveal
 
     def outcome(
         parameters: EpisodeParameters, memory: Any, motion: Motion, action_squares: float
     ) -> TaskOutcome:
         return task_outcome(parameters, memory.task, motion, action_squares)
 
-    return replace(task, outcome=outcome, **functions)
+    def reveal(parameters: EpisodeParameters, memory: Any, motion: Motion, current_ned: Vector3) -> Any:
+        return task_reveal(parameters, memory.task, motion, current_ned)
+
+    return replace(task, outcome=outcome, reveal=reveal, **functions)
+
+
+def make_shown(task: EpisodeTask) -> Callable[[EpisodeParameters, Any, Motion, Vector3], Any]:
+    """Return (episode's parameters, memory, motion, current in NED) -> what is observed, and what is revealed."""
+    observe, reveal = task.observe, task.reveal
+
+    def shown(parameters: EpisodeParameters, memory: Any, motion: Motion, current_ned: Vector3) -> Any:
+        return (
+            observe(parameters.task, memory, motion),
+            reveal(parameters, memory, motion, current_ned),
+        )
+
+    return shown
 
 
 def no_sum(total: float, terms: tuple[float, ...]) -> float:

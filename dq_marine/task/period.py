@@ -17,7 +17,7 @@ from dq_marine.integrator.step import (
     make_motion,
 )
 from dq_marine.task.action import action_size, make_actuator_action, make_sum_of_squares, make_wrench_action
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Report, TaskOutcome
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Report, TaskOutcome, make_shown
 
 
 class PeriodUniforms(NamedTuple):
@@ -68,7 +68,7 @@ def make_control_period(
     )
     motion_of, sum_of_squares = make_motion(composition), make_sum_of_squares(action_size(composition))
     sense, update = task.sensing.later, task.update_memory
-    observe, outcome = task.observe, task.outcome
+    show, outcome = make_shown(task), task.outcome
     evolve, velocity = composition.water.evolve, composition.water.velocity
     choose_water = select if composition.water.draws else no_choice
     no_rewards = task.no_rewards
@@ -93,13 +93,14 @@ def make_control_period(
         result = outcome(episode, memory_after, motion, sum_of_squares(action))
         report, nothing = result.report, spread((no_rewards, 0.0, 1.0), result.reward)
         told = select(taken, (report.rewards, result.reward, result.terminated), nothing)
+        current_ned = velocity(water, step.state.pose)
         return PeriodOutcome(
             step,
             water,
-            velocity(water, step.state.pose),
+            current_ned,
             motion,
             memory_after,
-            observe(episode.task, memory_after, motion),
+            show(episode, memory_after, motion, current_ned),
             TaskOutcome(told[1], told[2], Report(report.metrics, told[0], report.success)),
         )
 

@@ -10,7 +10,7 @@ from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.body import BodyState, Motion
 from dq_marine.integrator.step import Composition, StepParameters, in_water, make_motion, make_placement
 from dq_marine.integrator.water import CURRENT_DRAWS, CurrentDraw
-from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Report
+from dq_marine.task.episode import EpisodeParameters, EpisodeTask, Report, make_shown
 from dq_marine.task.protocol import Start
 
 CLOCK_SPAN = 1e4
@@ -41,7 +41,7 @@ class Beginning(NamedTuple):
         current_ned: its velocity where the body is [m/s].
         state: of the body.
         memory: of the task.
-        observation: nested tuples of numbers.
+        observation: nested tuples of numbers: what is observed, and what is revealed besides.
         report: with rewards of zero.
     """
 
@@ -79,7 +79,7 @@ def make_beginning(
     """Return (step's parameters, episode's parameters, drawn) -> Beginning."""
     flow, velocity = composition.water.flow, composition.water.velocity
     place, motion_of = make_placement(composition), make_motion(composition)
-    initial_memory, sense, observe = task.initial_memory, task.sensing.first, task.observe
+    initial_memory, sense, show = task.initial_memory, task.sensing.first, make_shown(task)
     first_report = make_first_report(task)
 
     def begin(parameters: StepParameters, episode: EpisodeParameters, drawn: Drawn) -> Beginning:
@@ -88,12 +88,13 @@ def make_beginning(
         motion = motion_of(flowing, state)
         empty = initial_memory(episode.task, start, drawn.for_task)
         memory = sense(episode, empty, motion, drawn.for_sensing)
+        current_ned = velocity(flowing.water, state.pose)
         return Beginning(
             flowing.water,
-            velocity(flowing.water, state.pose),
+            current_ned,
             state,
             memory,
-            observe(episode.task, memory, motion),
+            show(episode, memory, motion, current_ned),
             first_report(episode, memory, motion),
         )
 

@@ -22,6 +22,7 @@ from dq_marine.envs.core.infos import Infos
 from dq_marine.envs.core.observation import Places, places_of
 from dq_marine.envs.core.observed import ages_shown
 from dq_marine.envs.core.perturbations import perturbed
+from dq_marine.envs.core.privileged import checked_privileged, hides_truth, privileged_parts, told_pool
 from dq_marine.envs.core.registry import arrived, task_named, tasks_suiting, travelling
 from dq_marine.envs.core.rewards import checked_extra_rewards
 from dq_marine.envs.core.start import at_origin, checked_options
@@ -36,6 +37,7 @@ from dq_marine.simulation.settings import Settings, VehicleLike
 from dq_marine.task.delays import Delays, with_delays
 from dq_marine.task.episode import EpisodeParameters, episode_task
 from dq_marine.task.period import draws_of_period
+from dq_marine.task.privileged import revealing
 from dq_marine.task.protocol import RewardTerm
 from dq_marine.task.ranging import Schedule, with_schedule
 from dq_marine.task.sensors.build import nested_numbers, shown_numbers
@@ -84,6 +86,7 @@ class ComposedTask:
         task_settings: the task's own keywords.
         reward_weights: of its reward.
         extra_rewards: terms that were added to it.
+        privileged: whether the observation has a part that only the simulator knows.
         pool: the vehicles that episodes fly: that of the settings, or those drawn from it.
         scene: what is integrated, with the pool's first vehicle.
         current_draw: what the current of an episode is drawn from.
@@ -98,6 +101,7 @@ class ComposedTask:
     task_settings: Any
     reward_weights: Any
     extra_rewards: tuple[RewardTerm, ...]
+    privileged: bool
 
     def _prepare(
         self,
@@ -108,6 +112,7 @@ class ComposedTask:
         settings: Settings | None,
         level: str | None,
         perturb: str | Sequence[str] | None,
+        privileged: bool,
         keywords: dict[str, Any],
     ) -> None:
         """Check everything and prepare the vehicles; see `MarineEnv` for the arguments."""
@@ -135,9 +140,11 @@ class ComposedTask:
             task_settings=own,
             reward_weights=weights,
             extra_rewards=checked_extra_rewards(extra_rewards, definition),
+            privileged=checked_privileged(privileged),
         )
         _warn_if_unsuitable(definition, chosen.flown)
-        self.pool = prepared_pool(chosen)
+        prepared = prepared_pool(chosen)
+        self.pool = told_pool(prepared, chosen) if self.privileged else prepared
         self.scene = self.pool.scene
         self.current_draw = draw_of(self.scene.current)
         self.time_varying = any(part.changes for part in self.scene.weather)
@@ -184,10 +191,15 @@ class ComposedTask:
 
     @property
     def observations(self) -> tuple[Observed, ...]:
-        """What an observation consists of, in its order."""
+        """What an observation consists of, in its order, but for what only the simulator knows."""
         own = self.definition.observations(self.task_settings, self.vehicle)
         ages = () if self.ping_schedule is None else (ages_shown(self.ping_schedule),)
         return (*own, *ages, *(Observed(*shown) for shown in shown_numbers(self.settings.sensor_list)))
+
+    @property
+    def privileged_observations(self) -> tuple[Observed, ...]:
+        """What the part "privileged" of an observation consists of, in its order; nothing unless it was asked for."""
+        return privileged_parts(self) if self.privileged else ()
 
     @property
     def ping_schedule(self) -> Schedule | None:
@@ -197,7 +209,8 @@ class ComposedTask:
     @property
     def observation_bound(self) -> NDArray[np.float32]:
         """Largest magnitude of each observed number."""
-        return np.array([one.bound for one in self.observations for _ in range(one.size)], dtype=np.float32)
+        parts = (*self.observations, *self.privileged_observations)
+        return np.array([one.bound for one in parts for _ in range(one.size)], dtype=np.float32)
 
     @property
     def report_names(self) -> tuple[str, ...]:
@@ -224,6 +237,9 @@ class ComposedTask:
             wrench_limits=wrench_limits_of(self.vehicle),
             actions=float(len(self.action_mapping.places)),
             sensors=nested_numbers(self.settings.sensor_list, self.control_period, self.vehicle.gravity),
+            vehicle=self.pool.told[
+                0
+            ],  # another one's where episodes fly different ones: see `VehiclePool.fitted`
         )
 
     @property
@@ -282,7 +298,8 @@ class ComposedTask:
         delays = Delays(self.settings.action_delay, self.settings.observation_delay)
         self.action_mapping = action_mapping_of(self.scene, delays.action)
         functions = tuple(term.function for term in self.extra_rewards)
-        whole = episode_task(self.definition.task_for(self.task_settings), functions)
+        own = episode_task(self.definition.task_for(self.task_settings), functions)
+        whole = revealing(own, truth=hides_truth(self)) if self.privileged else own
         task = with_schedule(whole, self.ping_schedule) if self.ping_schedule else whole
         instruments = tuple(one.instrument for one in self.settings.sensor_list)
         sensed = with_sensors(task, instruments) if instruments else task
@@ -290,7 +307,7 @@ class ComposedTask:
         if any(delays):
             self.task = with_delays(driven, delays, self.action_mapping.size, self._blank_observation())
         self._motion = make_motion(self.scene.composition)
-        self.observation_places = places_of(self.observations)
+        self.observation_places = places_of((*self.observations, *self.privileged_observations))
         self._step = PeriodStep(
             compiled=self._compile(),
             duration=self.settings.control_period,
@@ -314,7 +331,7 @@ class ComposedTask:
         """Return an observation with zeros for its numbers, to tell its structure by."""
         parameters, drawn = self.episode_parameters({}), self._blank_start()
         begin = make_beginning(self.scene.composition, self.task)
-        observation = begin(self.base_parameters, parameters, drawn).observation
+        observation, _ = begin(self.base_parameters, parameters, drawn).observation
         return unpack(observation, np.zeros(pack(observation).size))
 
     def _blank_start(self) -> Drawn:

@@ -33,6 +33,9 @@ NARROWEST_WIDTH = 1e-6
 PARTS = ("observation", "achieved_goal", "desired_goal")
 """Of an observation of a goal-conditioned task, as Gymnasium's `GoalEnv` and hindsight replay name them."""
 
+PRIVILEGED = "privileged"
+"""The part that only the simulator knows, of any task, where it is asked for."""
+
 
 class Observed(NamedTuple):
     """Some numbers of an observation that belong together.

@@ -49,7 +49,8 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
     actuators in the order of `Vehicle.channels`, each over its limit on that side. Beyond the box it saturates.
 
     Observation: what `observations` lists, in that order; with sensors as measured, followed by what they show. Of a
-    task with goals it is a dictionary of "observation", "achieved_goal" and "desired_goal", see `GoalMarineEnv`.
+    task with goals it is a dictionary of "observation", "achieved_goal" and "desired_goal", see `GoalMarineEnv`. With
+    `privileged=True` it is a dictionary, whose part "privileged" holds what `privileged_observations` lists.
 
     `info` of `reset` and of every `step` has the same keys: the task's metrics, `reward/<name>` of each term of the
     reward, `is_success`, `current_ned`, `refused` (whether the integrator refused the step: then the episode ends, and
@@ -72,6 +73,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
         settings: Settings | None = None,
         level: str | None = None,
         perturb: str | Sequence[str] | None = None,
+        privileged: bool = False,
         render_mode: str | None = None,
         record: bool = False,
         **keywords: Unpack[SettingsKeywords],
@@ -87,6 +89,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
             level: of difficulty, one of the task's `levels`: stands for keywords, over which those that are given win.
             perturb: what does not go as planned, by name, one or several of `dq_marine.envs.PERTURBATIONS`:
                 stands for keywords, over which those that are given win, and which win over the level's.
+            privileged: observe besides, in a part of its own, what only the simulator knows: for critics.
             keywords: those of `Settings`, with the task's own defaults, and the task's own keywords.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.
@@ -98,7 +101,8 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
         Warns:
             UnsuitableVehicleWarning: the task cannot be done with this vehicle.
         """
-        self._prepare(task, vehicle, reward, extra_rewards, settings, level, perturb, dict(keywords))
+        of_task = (reward, extra_rewards, settings, level, perturb, privileged)
+        self._prepare(task, vehicle, *of_task, dict(keywords))
         self.render_mode = checked_render_mode(render_mode, self.metadata["render_modes"])
         self.record = bool(record)
         self.metadata = {**self.metadata, "render_fps": 1.0 / self.control_period}  # type: ignore[misc]

@@ -9,7 +9,7 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.envs.core.definition import PARTS, Observed
+from dq_marine.envs.core.definition import PARTS, PRIVILEGED, Observed
 
 Observation = NDArray[np.float32] | dict[str, NDArray[np.float32]]
 
@@ -22,7 +22,7 @@ def places_of(observations: Sequence[Observed]) -> Places | None:
     part = np.array([one.part for one in observations for _ in range(one.size)])
     if (part == PARTS[0]).all():
         return None
-    return {name: np.flatnonzero(part == name) for name in PARTS}
+    return {name: np.flatnonzero(part == name) for name in (*PARTS, PRIVILEGED) if (part == name).any()}
 
 
 def observation_space(bound: NDArray[np.float32], places: Places | None) -> gym.Space[Any]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from dq_marine.backend.packing import pack, unpack
 from dq_marine.task.action import ActuatedMemory
 from dq_marine.task.delays import Delayed
-from dq_marine.task.episode import EpisodeParameters
+from dq_marine.task.episode import EpisodeParameters, make_shown
 from dq_marine.task.ranging import Ranged
 from dq_marine.task.sensors.observing import Sensed
 from dq_marine.task.start import make_first_report
@@ -59,7 +59,8 @@ def tell_again(env: MarineEnv) -> None:
     episode, parameters, motion = env.episode, parameters_of(env), env.motion
     memory = env.task.begin_showing(parameters.task, unpack(env.blank_memory, episode.memory), motion)
     episode.memory[:] = pack(memory)
-    episode.observation[:] = pack(env.task.observe(parameters.task, memory, motion))
+    x, y, z = episode.current_ned.tolist()
+    episode.observation[:] = pack(make_shown(env.task)(parameters, memory, motion, (x, y, z)))
     episode.report[:-3] = pack(make_first_report(env.task)(parameters, memory, motion))
 
 

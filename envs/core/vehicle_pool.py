@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +22,9 @@ from dq_marine.simulation.settings import Settings
 from dq_marine.task.episode import EpisodeParameters
 from dq_marine.vehicles import Vehicle
 
-VEHICLE_FIELDS = ("wrench_limits",)
+VehicleFields: TypeAlias = tuple[tuple[float, float, float, float, float, float], tuple[float, ...]]
+
+VEHICLE_FIELDS = ("wrench_limits", "vehicle")
 """Of an episode's parameters, those that are a vehicle's."""
 
 
@@ -32,21 +36,25 @@ class VehiclePool:
         vehicles: at least one.
         scene: of the first of them, which stands for all.
         parameters: of each one's step.
-        rows: the parameters of the step and the limits of the wrench, packed, shape (vehicles, numbers).
+        told: of each one, in what it is not the nominal one, where that is revealed; else nothing.
     """
 
     vehicles: tuple[Vehicle, ...]
     scene: Scene
     parameters: tuple[StepParameters, ...]
-    rows: NDArray[np.float64]
+    told: tuple[tuple[float, ...], ...]
+
+    @cached_property
+    def rows(self) -> NDArray[np.float64]:
+        """The parameters of the step and the `VEHICLE_FIELDS` of the episode, packed, shape (vehicles, numbers)."""
+        return np.array([pack(self._member(number)) for number in range(len(self.vehicles))])
 
     @property
     def layout(self) -> PoolLayout | None:
         """What a row holds; None where there is nothing to choose."""
         if not self.has_choice:
             return None
-        member = (self.parameters[0], (wrench_limits_of(self.vehicles[0]),))
-        return PoolLayout(structure_type(member), VEHICLE_FIELDS)
+        return PoolLayout(structure_type(self._member(0)), VEHICLE_FIELDS)
 
     @property
     def has_choice(self) -> bool:
@@ -59,7 +67,12 @@ class VehiclePool:
 
     def fitted(self, episode_parameters: EpisodeParameters, number: int) -> EpisodeParameters:
         """Return an episode's parameters with those of one vehicle."""
-        return episode_parameters._replace(wrench_limits=wrench_limits_of(self.vehicles[number]))
+        wrench_limits, told = self._fields(number)
+        return episode_parameters._replace(wrench_limits=wrench_limits, vehicle=told)
+
+    def telling(self, told: Sequence[tuple[float, ...]]) -> VehiclePool:
+        """Return the pool with what is told of each vehicle."""
+        return replace(self, told=tuple(told))
 
     def checked_number(self, number: Any) -> int:
         """Return the number of a vehicle in a saved state.
@@ -68,6 +81,14 @@ class VehiclePool:
             InvalidInputError: it is no vehicle's.
         """
         return whole_number("state['vehicle']", number, least=0, most=len(self.vehicles) - 1)
+
+    def _fields(self, number: int) -> VehicleFields:
+        """Return a vehicle's `VEHICLE_FIELDS`."""
+        return wrench_limits_of(self.vehicles[number]), self.told[number]
+
+    def _member(self, number: int) -> tuple[StepParameters, VehicleFields]:
+        """Return what a row holds of a vehicle."""
+        return self.parameters[number], self._fields(number)
 
 
 def prepared_pool(settings: Settings) -> VehiclePool:
@@ -89,9 +110,7 @@ def prepared_pool(settings: Settings) -> VehiclePool:
                 "distributions under which no term of the one is zero in another"
             )
     parameters = tuple(map(numbers_of, scenes))
-    limits = [(wrench_limits_of(vehicle),) for vehicle in vehicles]
-    rows = np.array([pack(member) for member in zip(parameters, limits, strict=True)])
-    return VehiclePool(vehicles, first, parameters, rows)
+    return VehiclePool(vehicles, first, parameters, told=((),) * len(vehicles))
 
 
 def drawn_vehicles(settings: Settings) -> tuple[Vehicle, ...]:

@@ -25,7 +25,7 @@ from dq_marine.backend.simd.rows import (
 from dq_marine.backend.simd.vehicles import PoolLayout, make_renew_vehicle
 from dq_marine.integrator.step import ACCEPTED, Composition, StepParameters, in_water, make_motion
 from dq_marine.task.action import action_size, make_saturated
-from dq_marine.task.episode import EpisodeTask
+from dq_marine.task.episode import EpisodeTask, make_shown
 from dq_marine.task.period import make_control_period
 from dq_marine.task.start import Beginning, make_first_report
 
@@ -161,7 +161,7 @@ def compiled_begin(composition: Composition, task: EpisodeTask, layout: PeriodLa
     store_state, store_memory, store_parameters = writers.state, writers.memory, writers.parameters
     store_episode, renew_vehicle = writers.episode, make_renew_vehicle(layout.pool, layout.lanes)
     begin_one, motion_of = make_begin_one(composition, task, layout.time_varying), make_motion(composition)
-    observe, first_report = task.observe, make_first_report(task)
+    show, first_report = make_shown(task), make_first_report(task)
     velocity = composition.water.velocity
 
     def begin_blocks(first: int, last: int, arrays: PeriodArrays, wanted: Any) -> None:
@@ -173,12 +173,13 @@ def compiled_begin(composition: Composition, task: EpisodeTask, layout: PeriodLa
                 state = load_state(arrays.shared, arrays.states, block)
                 memory = load_memory(arrays.shared, arrays.memories, block)
                 motion = motion_of(parameters, state)
+                current_ned = spread(velocity(parameters.water, state.pose), motion.position_ned[0])
                 going_on = Beginning(
                     parameters.water,
-                    spread(velocity(parameters.water, state.pose), motion.position_ned[0]),
+                    current_ned,
                     state,
                     memory,
-                    observe(episode.task, memory, motion),
+                    show(episode, memory, motion, current_ned),
                     first_report(episode, memory, motion),
                 )
                 bodies = lane_numbers(motion.position_ned[0], block)
