@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import gymnasium as gym
 
@@ -19,31 +19,44 @@ def check_can_begin(settings: TrainingSettings) -> None:
 
     Raises:
         InvalidInputError: the environment's keywords are wrong, a level of the curriculum is unknown or shows other
-            observations than the environment itself, or the teacher cannot fly in it.
+            observations than the environment itself, the teacher cannot fly in it, or a critic is to see what is hidden
+            and nothing is.
         MissingDependencyError: a library that the teacher needs is not installed.
     """
-    spaces = [_checked_spaces(lesson) for lesson in lessons_of(settings)]
-    for level, found in zip(settings.curriculum.levels if settings.curriculum else (), spaces, strict=False):
-        if found != spaces[-1]:
+    found = [_checked(lesson) for lesson in lessons_of(settings)]
+    for level, one in zip(settings.curriculum.levels if settings.curriculum else (), found, strict=False):
+        if one.spaces != found[-1].spaces:
             raise InvalidInputError(
                 f"curriculum.levels: at level {level!r} the observations or actions, or their bounds, are not those of "
                 "the environment itself: no policy can learn both; leave the level out, or give the keyword that "
                 "makes the difference"
             )
+    if settings.privileged_critic and not found[-1].hides_anything:
+        raise InvalidInputError(
+            f"privileged_critic = true, but {settings.environment.id} with {settings.environment.keywords} hides "
+            "nothing from the agent: its water is still, all its episodes fly one vehicle, and what is observed is "
+            "true; give a current, randomise or sensors, or leave privileged_critic out"
+        )
 
 
-def _checked_spaces(settings: TrainingSettings) -> tuple[gym.Space[Any], gym.Space[Any]]:
-    """Return the spaces of observations and actions of an environment in which the teacher can fly."""
+class _Found(NamedTuple):
+    """What an environment to learn in is like.
+
+    Attributes:
+        spaces: of observations and of actions.
+        hides_anything: whether there is something that only the simulator knows.
+    """
+
+    spaces: tuple[gym.Space[Any], gym.Space[Any]]
+    hides_anything: bool
+
+
+def _checked(settings: TrainingSettings) -> _Found:
+    """Return what an environment is like in which the teacher can fly."""
     env = make_environment(settings.learned_in)
     try:
         if settings.imitation is not None:
             make_baseline(settings.imitation.teacher, env)
-        if settings.privileged_critic and not hides_anything(marine(env)):
-            raise InvalidInputError(
-                f"privileged_critic = true, but {settings.environment.id} with {settings.environment.keywords} hides "
-                "nothing from the agent: its water is still, all its episodes fly one vehicle, and what is observed is "
-                "true; give a current, randomise or sensors, or leave privileged_critic out"
-            )
-        return env.observation_space, env.action_space
+        return _Found((env.observation_space, env.action_space), hides_anything(marine(env)))
     finally:
         env.close()
