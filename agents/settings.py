@@ -10,7 +10,7 @@ from dq_marine.agents.algorithm_settings import AlgorithmSettings, CrossQSetting
 from dq_marine.agents.strict_settings import Count, Fraction, NonNegative, Positive, Settings
 
 PRIVILEGED_KEYWORD = "privileged"
-"""Of an environment: whether its observation has a part that only the simulator knows."""
+"""Of an environment: what a part of its observation shows that only the simulator knows."""
 
 
 class LoopSettings(Settings):
@@ -231,8 +231,8 @@ class TrainingSettings(Settings):
         evaluation: while training, on environments of its own.
         imitation: how the policy begins as the copy of a baseline; None where it begins with nothing learned.
         curriculum: levels that are learned first; None for the environment's own from the start.
-        privileged_critic: whether the critic sees what only the simulator knows: the current, in what the vehicle is
-            not the nominal one, and the truth behind sensors and delays. The policy that is learned does not.
+        privileged_critic: what the critic sees of what only the simulator knows: the current, in what the vehicle is
+            not the nominal one, the truth behind sensors and delays. The policy that is learned does not.
     """
 
     timesteps: Count
@@ -246,14 +246,14 @@ class TrainingSettings(Settings):
     evaluation: EvaluationSettings
     imitation: ImitationSettings | None = None
     curriculum: CurriculumSettings | None = None
-    privileged_critic: bool = False
+    privileged_critic: tuple[Literal["current", "vehicle", "truth"], ...] = ()
 
     @property
     def learned_in(self) -> EnvironmentSettings:
         """The environment, with what only the critic sees."""
         keywords = self.environment.keywords
         if self.privileged_critic:
-            keywords = {**keywords, PRIVILEGED_KEYWORD: True}
+            keywords = {**keywords, PRIVILEGED_KEYWORD: list(self.privileged_critic)}
         return EnvironmentSettings(id=self.environment.id, keywords=keywords)
 
     @model_validator(mode="after")
@@ -280,12 +280,12 @@ class TrainingSettings(Settings):
     def _critic_can_see_more(self) -> Self:
         if self.privileged_critic and isinstance(self.algorithm, CrossQSettings):
             raise ValueError(
-                "privileged_critic = true, and algorithm.name = 'crossq', whose critic takes no observations in parts; "
-                "train with ppo, recurrent_ppo, sac, td3 or tqc, or leave privileged_critic out"
+                f"privileged_critic = {list(self.privileged_critic)}, and algorithm.name = 'crossq', whose critic takes "
+                "no observations in parts; train with ppo, recurrent_ppo, sac, td3 or tqc, or leave privileged_critic out"
             )
         if PRIVILEGED_KEYWORD in self.environment.keywords:
             raise ValueError(
                 f"environment.keywords.{PRIVILEGED_KEYWORD} would show the policy what no sensor tells; set "
-                "privileged_critic = true, which shows it to the critic alone"
+                "privileged_critic, which shows it to the critic alone"
             )
         return self

@@ -10,7 +10,7 @@ from dq_marine.agents.controllers.baselines import make_baseline
 from dq_marine.agents.environments import make_environment, marine
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.lessons import lessons_of
-from dq_marine.envs.core.privileged import hides_anything
+from dq_marine.envs.core.privileged import HIDDEN_BY, hidden_parts
 from dq_marine.errors import InvalidInputError
 
 
@@ -19,8 +19,8 @@ def check_can_begin(settings: TrainingSettings) -> None:
 
     Raises:
         InvalidInputError: the environment's keywords are wrong, a level of the curriculum is unknown or shows other
-            observations than the environment itself, the teacher cannot fly in it, or a critic is to see what is hidden
-            and nothing is.
+            observations than the environment itself, the teacher cannot fly in it, or a critic is to see what is
+            hidden and is not.
         MissingDependencyError: a library that the teacher needs is not installed.
     """
     found = [_checked(lesson) for lesson in lessons_of(settings)]
@@ -31,12 +31,12 @@ def check_can_begin(settings: TrainingSettings) -> None:
                 "the environment itself: no policy can learn both; leave the level out, or give the keyword that "
                 "makes the difference"
             )
-    if settings.privileged_critic and not found[-1].hides_anything:
-        raise InvalidInputError(
-            f"privileged_critic = true, but {settings.environment.id} with {settings.environment.keywords} hides "
-            "nothing from the agent: its water is still, all its episodes fly one vehicle, and what is observed is "
-            "true; give a current, randomise or sensors, or leave privileged_critic out"
-        )
+    for name in settings.privileged_critic:
+        if name not in found[-1].hidden:
+            raise InvalidInputError(
+                f"privileged_critic has {name!r}, but {settings.environment.id} with {settings.environment.keywords} "
+                f"hides none of it from the agent; give {HIDDEN_BY[name]}, or leave {name!r} out"
+            )
 
 
 class _Found(NamedTuple):
@@ -44,11 +44,11 @@ class _Found(NamedTuple):
 
     Attributes:
         spaces: of observations and of actions.
-        hides_anything: whether there is something that only the simulator knows.
+        hidden: names of what only the simulator knows.
     """
 
     spaces: tuple[gym.Space[Any], gym.Space[Any]]
-    hides_anything: bool
+    hidden: tuple[str, ...]
 
 
 def _checked(settings: TrainingSettings) -> _Found:
@@ -57,6 +57,6 @@ def _checked(settings: TrainingSettings) -> _Found:
     try:
         if settings.imitation is not None:
             make_baseline(settings.imitation.teacher, env)
-        return _Found((env.observation_space, env.action_space), hides_anything(marine(env)))
+        return _Found((env.observation_space, env.action_space), hidden_parts(marine(env)))
     finally:
         env.close()

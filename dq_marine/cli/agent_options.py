@@ -164,7 +164,7 @@ def requested_training(
     envs: int | None = None,
     teacher: str | None = None,
     curriculum: list[str] | None = None,
-    privileged_critic: bool = False,
+    privileged_critic: list[str] | None = None,
 ) -> TrainingSettings:
     """Return a preset's settings with what was asked for in its place.
 
@@ -176,7 +176,7 @@ def requested_training(
         envs: environments to learn from.
         teacher: the baseline that the policy begins as a copy of; None keeps the preset's, if it has one.
         curriculum: levels that are learned first; None keeps the preset's, if it has any.
-        privileged_critic: whether the critic sees what only the simulator knows; False keeps what the preset says.
+        privileged_critic: what the critic sees of what only the simulator knows; None keeps what the preset says.
 
     Raises:
         InvalidInputError: the preset or an option is wrong, or they contradict each other.
@@ -195,7 +195,8 @@ def requested_training(
         content["imitation"] = (content["imitation"] or {}) | {"teacher": teacher}
     if curriculum is not None:
         content["curriculum"] = (content["curriculum"] or {}) | {"levels": curriculum}
-    content["privileged_critic"] = settings.privileged_critic or privileged_critic
+    if privileged_critic is not None:
+        content["privileged_critic"] = privileged_critic
     content["environment"] = options.applied(settings.environment).model_dump()
     return validate_settings(content, TrainingSettings, source=f"{source} with these options")
 

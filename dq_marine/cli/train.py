@@ -35,7 +35,7 @@ EXAMPLES = examples(
     "dq-marine train --run runs/docking --task Docking --imitate controller",
     "dq-marine train --run runs/lessons --task Docking --level medium --curriculum easy",
     "dq-marine train --run runs/many --set randomise=default --set sensors=auv",
-    "dq-marine train --run runs/critic --set randomise=default --privileged-critic",
+    "dq-marine train --run runs/critic --set randomise=default --privileged-critic current",
     "dq-marine train --run runs/calm --set current=0.1 --set reward.effort=0.05",
     "dq-marine train --print-preset --set actuation=thrusters > my_preset.toml",
     "dq-marine train --run runs/mine --preset my_preset.toml --vehicle my_vehicle.toml",
@@ -80,14 +80,15 @@ def train(
         ),
     ] = None,
     privileged_critic: Annotated[
-        bool,
+        list[str] | None,
         typer.Option(
             "--privileged-critic",
-            help="Let the critic see what only the simulator knows: current, drawn parameters, truth behind sensors. "
-            "The policy does not.",
-            show_default="no, or the preset's",
+            metavar="PART",
+            help="Let the critic, not the policy, see what only the simulator knows: current, vehicle (in what it is "
+            "not the nominal one), truth (behind sensors and delays); may be repeated.",
+            show_default="none, or the preset's",
         ),
-    ] = False,
+    ] = None,
     seed: Annotated[
         int | None,
         typer.Option(

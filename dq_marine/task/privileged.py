@@ -64,12 +64,16 @@ def make_revealed(parts: tuple[Reveal, ...]) -> Reveal:
 
 
 @functools.cache
-def revealing(task: EpisodeTask, *, truth: bool) -> EpisodeTask:
-    """Return a task that reveals current and vehicle, and where asked for, what it would observe of the truth.
+def revealing(task: EpisodeTask, names: tuple[str, ...]) -> EpisodeTask:
+    """Return a task that reveals parts of what only the simulator knows.
 
     Args:
         task: as yet without what stands between it and the truth: sensors, delays, a schedule of pings.
-        truth: whether any of these will.
+        names: of the parts, in the order of their numbers: "current", "vehicle", "truth".
     """
-    own = (make_true_observation(task),) if truth else ()
-    return replace(task, reveal=make_revealed((current_in_body, vehicle_differences, *own)))
+    known = {
+        "current": current_in_body,
+        "vehicle": vehicle_differences,
+        "truth": make_true_observation(task),
+    }
+    return replace(task, reveal=make_revealed(tuple(known[name] for name in names)))

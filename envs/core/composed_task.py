@@ -22,7 +22,7 @@ from dq_marine.envs.core.infos import Infos
 from dq_marine.envs.core.observation import Places, places_of
 from dq_marine.envs.core.observed import ages_shown
 from dq_marine.envs.core.perturbations import perturbed
-from dq_marine.envs.core.privileged import checked_privileged, hides_truth, privileged_parts, told_pool
+from dq_marine.envs.core.privileged import checked_privileged, privileged_numbers, told_pool
 from dq_marine.envs.core.registry import arrived, task_named, tasks_suiting, travelling
 from dq_marine.envs.core.rewards import checked_extra_rewards
 from dq_marine.envs.core.start import at_origin, checked_options
@@ -86,7 +86,7 @@ class ComposedTask:
         task_settings: the task's own keywords.
         reward_weights: of its reward.
         extra_rewards: terms that were added to it.
-        privileged: whether the observation has a part that only the simulator knows.
+        privileged: names of what a part of the observation shows that only the simulator knows.
         pool: the vehicles that episodes fly: that of the settings, or those drawn from it.
         scene: what is integrated, with the pool's first vehicle.
         current_draw: what the current of an episode is drawn from.
@@ -101,7 +101,7 @@ class ComposedTask:
     task_settings: Any
     reward_weights: Any
     extra_rewards: tuple[RewardTerm, ...]
-    privileged: bool
+    privileged: tuple[str, ...]
 
     def _prepare(
         self,
@@ -112,7 +112,7 @@ class ComposedTask:
         settings: Settings | None,
         level: str | None,
         perturb: str | Sequence[str] | None,
-        privileged: bool,
+        privileged: str | Sequence[str] | None,
         keywords: dict[str, Any],
     ) -> None:
         """Check everything and prepare the vehicles; see `MarineEnv` for the arguments."""
@@ -144,7 +144,7 @@ class ComposedTask:
         )
         _warn_if_unsuitable(definition, chosen.flown)
         prepared = prepared_pool(chosen)
-        self.pool = told_pool(prepared, chosen) if self.privileged else prepared
+        self.pool = told_pool(prepared, chosen) if "vehicle" in self.privileged else prepared
         self.scene = self.pool.scene
         self.current_draw = draw_of(self.scene.current)
         self.time_varying = any(part.changes for part in self.scene.weather)
@@ -199,7 +199,7 @@ class ComposedTask:
     @property
     def privileged_observations(self) -> tuple[Observed, ...]:
         """What the part "privileged" of an observation consists of, in its order; nothing unless it was asked for."""
-        return privileged_parts(self) if self.privileged else ()
+        return privileged_numbers(self)
 
     @property
     def ping_schedule(self) -> Schedule | None:
@@ -299,7 +299,7 @@ class ComposedTask:
         self.action_mapping = action_mapping_of(self.scene, delays.action)
         functions = tuple(term.function for term in self.extra_rewards)
         own = episode_task(self.definition.task_for(self.task_settings), functions)
-        whole = revealing(own, truth=hides_truth(self)) if self.privileged else own
+        whole = revealing(own, self.privileged) if self.privileged else own
         task = with_schedule(whole, self.ping_schedule) if self.ping_schedule else whole
         instruments = tuple(one.instrument for one in self.settings.sensor_list)
         sensed = with_sensors(task, instruments) if instruments else task

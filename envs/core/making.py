@@ -6,11 +6,13 @@ from typing import Any
 
 import gymnasium as gym
 
+from dq_marine.checks import shown
 from dq_marine.envs.core.definition import TaskDefinition
 from dq_marine.envs.core.goal_env import GoalMarineEnv
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.envs.core.pixels import PixelObservation, picture_size
 from dq_marine.envs.core.registry import task_named
+from dq_marine.errors import InvalidInputError
 
 
 def make_single(
@@ -25,13 +27,20 @@ def make_single(
         keywords: see `MarineEnv`.
 
     Raises:
-        InvalidInputError: a value is wrong, or a keyword unknown.
+        InvalidInputError: a value is wrong, a keyword unknown, or pictures are to have a privileged part.
         VehicleFileError: the vehicle file is wrong.
         MissingDependencyError: pictures are asked for, and meshcat or a Chromium is not installed.
     """
     definition, size = task_named(task), picture_size(observation)
     env = (GoalMarineEnv if definition.has_goals else MarineEnv)(definition, *arguments, **keywords)
-    return env if size is None else PixelObservation(env, *size)
+    if size is None:
+        return env
+    if env.privileged:
+        raise InvalidInputError(
+            f"privileged = {list(env.privileged)} and observation = {shown(observation)}: pictures have no such part; "
+            "leave one of them out"
+        )
+    return PixelObservation(env, *size)
 
 
 make_single.metadata = MarineEnv.metadata  # type: ignore[attr-defined]  # where `gym.make` looks for render modes

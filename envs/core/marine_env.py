@@ -50,7 +50,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
 
     Observation: what `observations` lists, in that order; with sensors as measured, followed by what they show. Of a
     task with goals it is a dictionary of "observation", "achieved_goal" and "desired_goal", see `GoalMarineEnv`. With
-    `privileged=True` it is a dictionary, whose part "privileged" holds what `privileged_observations` lists.
+    `privileged` it is a dictionary, whose part of that name holds what `privileged_observations` lists.
 
     `info` of `reset` and of every `step` has the same keys: the task's metrics, `reward/<name>` of each term of the
     reward, `is_success`, `current_ned`, `refused` (whether the integrator refused the step: then the episode ends, and
@@ -73,7 +73,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
         settings: Settings | None = None,
         level: str | None = None,
         perturb: str | Sequence[str] | None = None,
-        privileged: bool = False,
+        privileged: str | Sequence[str] | None = None,
         render_mode: str | None = None,
         record: bool = False,
         **keywords: Unpack[SettingsKeywords],
@@ -89,7 +89,7 @@ class MarineEnv(ShownTask, gym.Env[Observation, Action]):
             level: of difficulty, one of the task's `levels`: stands for keywords, over which those that are given win.
             perturb: what does not go as planned, by name, one or several of `dq_marine.envs.PERTURBATIONS`:
                 stands for keywords, over which those that are given win, and which win over the level's.
-            privileged: observe besides, in a part of its own, what only the simulator knows: for critics.
+            privileged: what of "current", "vehicle" and "truth" a part of the observation shows: for critics.
             keywords: those of `Settings`, with the task's own defaults, and the task's own keywords.
             render_mode: None, "human" (live page) or "rgb_array" (pictures).
             record: keep the episode for `save_html`.

@@ -31,6 +31,7 @@ from dq_marine.envs.core.definition import PRIVILEGED
 from dq_marine.errors import InvalidInputError
 
 ABLE = [name for name in ALGORITHMS if name != "crossq"]
+BOTH = ("current", "vehicle")
 ROUND_OFF = 1e-6
 """Of actions in [-1, 1] from single precision."""
 
@@ -40,7 +41,7 @@ def hiding(settings: TrainingSettings, **keywords: Any) -> TrainingSettings:
     environment = with_keywords(
         settings.environment, current=0.5, randomise="default", vehicle_pool=4, **keywords
     )
-    return settings.model_copy(update={"environment": environment, "privileged_critic": True})
+    return settings.model_copy(update={"environment": environment, "privileged_critic": BOTH})
 
 
 @pytest.fixture
@@ -92,7 +93,7 @@ def test_the_critic_sees_it_and_the_actor_does_not(tmp_path: Path, algorithm: st
 
 def test_the_actors_net_is_the_one_of_an_ordinary_training(tmp_path: Path) -> None:
     settings = hiding(tiny(tmp_path, "ppo"))
-    ordinary = make_model(settings.model_copy(update={"privileged_critic": False}), 3, tmp_path)
+    ordinary = make_model(settings.model_copy(update={"privileged_critic": ()}), 3, tmp_path)
     privileged = make_model(settings, 3, tmp_path)
     actors = [
         [one.shape for one in model.policy.mlp_extractor.policy_net.parameters()]
@@ -129,7 +130,7 @@ def test_what_was_learned_flies_and_is_exported_without_it(
     observations = np.random.default_rng(0).normal(size=(50, public.size)).astype(np.float32)
     for one in observations:
         np.testing.assert_allclose(flown.act(one), own.act(one), rtol=0.0, atol=ROUND_OFF)
-    assert "privileged_critic = true" in exported.files[-1].read_text(encoding="utf-8")
+    assert 'privileged_critic = ["current", "vehicle"]' in exported.files[-1].read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("algorithm", sweep(ABLE, plain=["ppo"]))
@@ -154,7 +155,7 @@ def test_a_run_is_resumed_with_its_critic(tmp_path: Path, console: Console) -> N
     folder = RunFolder(tmp_path / "run")
     begin_training(folder, hiding(tiny(tmp_path, "ppo", 64)), console=console)
     assert resume_training(folder, timesteps=128, console=console).timesteps == 128
-    assert folder.read_plan().settings.privileged_critic
+    assert folder.read_plan().settings.privileged_critic == BOTH
     assert PRIVILEGED in TrainedPolicy(folder).model.observation_space.spaces
 
 
@@ -171,7 +172,7 @@ def test_a_copy_of_a_teacher_is_made_without_it_and_its_critic_with_it(tmp_path:
     other = seen | {PRIVILEGED: seen[PRIVILEGED] + np.float32(1.0)}
     assert np.array_equal(decided(model, other), decided(model, seen))
     assert (valued(model, other) != valued(model, seen)).all()
-    ordinary = settings.model_copy(update={"privileged_critic": False})
+    ordinary = settings.model_copy(update={"privileged_critic": ()})
     same = make_model(ordinary, 3, tmp_path)
     assert imitate(same, ordinary, 3) == pytest.approx(error, abs=0.2)
     for one in (model, same):
@@ -180,34 +181,42 @@ def test_a_copy_of_a_teacher_is_made_without_it_and_its_critic_with_it(tmp_path:
 
 def test_it_can_be_asked_for(tmp_path: Path) -> None:
     assert not requested_training(EnvironmentOptions()).privileged_critic
-    assert requested_training(EnvironmentOptions(), privileged_critic=True).privileged_critic
+    asked = requested_training(EnvironmentOptions(), privileged_critic=["truth", "current"])
+    assert asked.privileged_critic == ("truth", "current")
+    with pytest.raises(
+        InvalidInputError, match=r"privileged_critic\.0 = 'thrust'.*'current', 'vehicle' or 'truth'"
+    ):
+        requested_training(EnvironmentOptions(), privileged_critic=["thrust"])
     preset = tmp_path / "own.toml"
-    preset.write_text('based_on = "ppo"\nprivileged_critic = true\n', encoding="utf-8")
+    preset.write_text('based_on = "ppo"\nprivileged_critic = ["current"]\n', encoding="utf-8")
     asked = requested_training(EnvironmentOptions(), preset=str(preset))
-    assert asked.privileged_critic
+    assert asked.privileged_critic == ("current",)
     assert "privileged" not in asked.environment.keywords
-    assert asked.learned_in.keywords == {**asked.environment.keywords, "privileged": True}
+    assert asked.learned_in.keywords == {**asked.environment.keywords, "privileged": ["current"]}
 
 
 def test_what_cannot_be_done_is_refused_before_anything_is_written(tmp_path: Path, console: Console) -> None:
     with pytest.raises(InvalidInputError, match=r"algorithm\.name = 'crossq'.* train with ppo"):
-        requested_training(EnvironmentOptions(), algorithm="crossq", privileged_critic=True)
+        requested_training(EnvironmentOptions(), algorithm="crossq", privileged_critic=["current"])
     settings = tiny(tmp_path, "ppo", 64)
     content = settings.model_dump()
-    content["environment"]["keywords"]["privileged"] = True
+    content["environment"]["keywords"]["privileged"] = "current"
     with pytest.raises(
-        InvalidInputError, match=r"show the policy what no sensor tells; set privileged_critic = true"
+        InvalidInputError, match=r"show the policy what no sensor tells; set privileged_critic"
     ):
         validate_settings(content, TrainingSettings, source="a preset")
     still = settings.model_copy(
-        update={"environment": with_keywords(settings.environment, current=0.0), "privileged_critic": True}
+        update={
+            "environment": with_keywords(settings.environment, current=0.0),
+            "privileged_critic": ("current",),
+        }
     )
     with pytest.raises(
-        InvalidInputError, match=r"hides nothing from the agent.*give a current, randomise or sensors"
+        InvalidInputError, match=r"hides none of it from the agent; give a current, or leave 'current' out"
     ):
         begin_training(RunFolder(tmp_path / "run"), still, console=console)
     assert not (tmp_path / "run").exists()
-    with pytest.raises(InvalidInputError, match="hides nothing from the agent"):
+    with pytest.raises(InvalidInputError, match="hides none of it from the agent"):
         plan_of(still, seed=0)
 
 
@@ -217,7 +226,7 @@ def test_lessons_in_still_water_go_with_it(tmp_path: Path, console: Console) -> 
     environment = with_keywords(settings.environment, level="medium")
     curriculum = CurriculumSettings(levels=("easy",), success=0.0, episodes=1)
     lessons = settings.model_copy(
-        update={"environment": environment, "curriculum": curriculum, "privileged_critic": True}
+        update={"environment": environment, "curriculum": curriculum, "privileged_critic": ("current",)}
     )
     begin_training(RunFolder(tmp_path / "run"), lessons, console=console)
     assert "Level easy is learned" in console.file.getvalue()  # type: ignore[attr-defined]

@@ -15,6 +15,7 @@ from dq_marine.envs.core.definition import PRIVILEGED
 from dq_marine.errors import InvalidInputError
 
 SCENE: dict[str, Any] = {"current": 0.5, "randomise": "default", "vehicle_pool": 4}
+BOTH = ("current", "vehicle")
 STEPS = 12
 
 
@@ -42,7 +43,7 @@ def rotation(quaternion):
 
 
 def test_the_current_is_that_of_the_water_in_the_vehicles_axes():
-    env = StationKeepingEnv(**SCENE, privileged=True)
+    env = StationKeepingEnv(**SCENE, privileged=BOTH)
     for observation, *_ in flight(env):
         current = env.info["current_ned"]
         assert np.linalg.norm(current) > 0.01
@@ -55,7 +56,7 @@ def test_the_current_is_that_of_the_water_in_the_vehicles_axes():
 
 
 def test_the_vehicles_factors_are_those_of_the_vehicle_that_flies():
-    env = StationKeepingEnv(**SCENE, privileged=True)
+    env = StationKeepingEnv(**SCENE, privileged=BOTH)
     flown = set()
     for seed in range(8):
         observation, info = env.reset(seed=seed)
@@ -76,7 +77,7 @@ def test_the_vehicles_factors_are_those_of_the_vehicle_that_flies():
 
 def test_all_else_has_the_bits_of_an_environment_without():
     pairs = zip(
-        flight(StationKeepingEnv(**SCENE, privileged=True)), flight(StationKeepingEnv(**SCENE)), strict=True
+        flight(StationKeepingEnv(**SCENE, privileged=BOTH)), flight(StationKeepingEnv(**SCENE)), strict=True
     )
     for (seen, reward, info), (before, reward_before, info_before) in pairs:
         assert np.array_equal(seen["observation"], before)
@@ -87,9 +88,9 @@ def test_all_else_has_the_bits_of_an_environment_without():
 def test_lanes_have_the_bits_of_single_environments_at_the_end_of_episodes_too():
     n = 3
     envs = StationKeepingVectorEnv(
-        n, max_episode_steps=5, autoreset_mode=AutoresetMode.SAME_STEP, **SCENE, privileged=True
+        n, max_episode_steps=5, autoreset_mode=AutoresetMode.SAME_STEP, **SCENE, privileged=BOTH
     )
-    singles = [StationKeepingEnv(**SCENE, privileged=True) for _ in range(n)]
+    singles = [StationKeepingEnv(**SCENE, privileged=BOTH) for _ in range(n)]
     together, _ = envs.reset(seed=0)
     alone = [env.reset(seed=seed)[0] for seed, env in enumerate(singles)]
     rng = np.random.default_rng(0)
@@ -103,7 +104,7 @@ def test_lanes_have_the_bits_of_single_environments_at_the_end_of_episodes_too()
             for final, one in zip(infos["final_obs"], alone, strict=True):
                 assert all(np.array_equal(final[part], one[part]) for part in one)
             alone = [env.reset()[0] for env in singles]
-    restored = StationKeepingEnv(**SCENE, privileged=True)
+    restored = StationKeepingEnv(**SCENE, privileged=BOTH)
     restored.set_state(envs.call("get_state")[1])
     assert np.array_equal(restored.observation[PRIVILEGED], together[PRIVILEGED][1])
 
@@ -111,7 +112,7 @@ def test_lanes_have_the_bits_of_single_environments_at_the_end_of_episodes_too()
 def test_what_sensors_and_delays_hide_is_revealed():
     """The truth is what an environment without either observes of the same flight."""
     hidden = StationKeepingEnv(
-        sensors={"dvl": {"noise": 0.3}}, observation_delay=2, current=0.5, privileged=True
+        sensors={"dvl": {"noise": 0.3}}, observation_delay=2, current=0.5, privileged="truth"
     )
     open_ = StationKeepingEnv(current=0.5)
     differences = []
@@ -124,7 +125,9 @@ def test_what_sensors_and_delays_hide_is_revealed():
 
 
 def test_actuators_are_told_of_where_they_drive():
-    env = StationKeepingEnv(actuation="thrusters", randomise="lost_thruster", vehicle_pool=8, privileged=True)
+    env = StationKeepingEnv(
+        actuation="thrusters", randomise="lost_thruster", vehicle_pool=8, privileged=["vehicle"]
+    )
     lost = set()
     for seed in range(8):
         thrust = parts_of(env, env.reset(seed=seed)[0])["thrust_factors"]
@@ -135,21 +138,47 @@ def test_actuators_are_told_of_where_they_drive():
 
 
 def test_the_space_holds_it_and_checkers_accept_it():
-    env = StationKeepingEnv(**SCENE, privileged=True)
+    env = StationKeepingEnv(**SCENE, privileged=BOTH)
     assert set(env.observation_space.spaces) == {"observation", PRIVILEGED}
     for observation, *_ in flight(env):
         assert env.observation_space.contains(observation)
     check_env(
-        gym.make("dq_marine/StationKeeping-v0", **SCENE, privileged=True).unwrapped, skip_render_check=True
+        gym.make("dq_marine/StationKeeping-v0", **SCENE, privileged=BOTH).unwrapped, skip_render_check=True
     )
 
 
 def test_still_water_shows_a_current_of_zero_so_that_levels_are_alike():
-    observation, _ = StationKeepingEnv(current=0.0, privileged=True).reset(seed=0)
+    observation, _ = StationKeepingEnv(current=0.0, privileged="current").reset(seed=0)
     assert np.array_equal(observation[PRIVILEGED], np.zeros(3))
 
 
-@pytest.mark.parametrize("given", ["yes", 1, None])
-def test_what_is_neither_true_nor_false_is_refused(given):
-    with pytest.raises(InvalidInputError, match=r"privileged = .*; give True or False"):
+def test_the_parts_stand_in_one_order_however_they_are_asked_for():
+    asked = StationKeepingEnv(**SCENE, sensors="auv", privileged=["truth", "current", "vehicle", "current"])
+    assert asked.privileged == ("current", "vehicle", "truth")
+    names = [one.name for one in asked.privileged_observations]
+    assert names[:2] == ["current_body", "mass_factor"]
+    assert names[-1] == f"true_{asked.definition.observations(asked.task_settings, asked.vehicle)[-1].name}"
+    for nothing in (None, [], ()):
+        assert StationKeepingEnv(**SCENE, privileged=nothing).observation_space.shape == (18,)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("thrust", r"privileged = 'thrust'"),
+        (["current", 3], r"privileged = 3"),
+        (True, r"privileged = True; give a name of \['current', 'vehicle', 'truth'\], or a list"),
+        (
+            "vehicle",
+            r"no number of the vehicle differs between episodes; give randomise, or leave 'vehicle' out",
+        ),
+    ],
+)
+def test_what_cannot_be_shown_is_refused(given, message):
+    with pytest.raises(InvalidInputError, match=message):
         StationKeepingEnv(privileged=given)
+
+
+def test_pictures_have_no_such_part():
+    with pytest.raises(InvalidInputError, match=r"pictures have no such part; leave one of them out"):
+        gym.make("dq_marine/StationKeeping-v0", observation="pixels", privileged="current")
