@@ -280,8 +280,9 @@ class TrainingSettings(Settings):
     def _critic_can_see_more(self) -> Self:
         if self.privileged_critic and isinstance(self.algorithm, CrossQSettings):
             raise ValueError(
-                f"privileged_critic = {list(self.privileged_critic)}, and algorithm.name = 'crossq', whose critic takes "
-                "no observations in parts; train with ppo, recurrent_ppo, sac, td3 or tqc, or leave privileged_critic out"
+                f"privileged_critic = {list(self.privileged_critic)}, and algorithm.name = 'crossq', whose critic "
+                "takes no observations in parts; train with ppo, recurrent_ppo, sac, td3 or tqc, or leave "
+                "privileged_critic out"
             )
         if PRIVILEGED_KEYWORD in self.environment.keywords:
             raise ValueError(
