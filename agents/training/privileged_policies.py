@@ -19,9 +19,6 @@ with extra_needed("training", "agents"):
     from stable_baselines3.sac.policies import MultiInputPolicy as SACMultiInputPolicy
     from stable_baselines3.td3.policies import MultiInputPolicy as TD3MultiInputPolicy
 
-APART = ("features_extractor_class", "share_features_extractor")
-"""Keywords of a policy that say what its two networks see."""
-
 
 class PublicExtractor(CombinedExtractor):
     """Joins the parts of an observation but for the privileged one."""
@@ -33,7 +30,7 @@ class PublicExtractor(CombinedExtractor):
 
 def seen_apart(keywords: dict[str, Any]) -> dict[str, Any]:
     """Return the keywords of a policy whose actor sees the public parts, and whose critic has eyes of its own."""
-    return {**keywords, **dict(zip(APART, (PublicExtractor, False), strict=True))}
+    return keywords | {"features_extractor_class": PublicExtractor, "share_features_extractor": False}
 
 
 class PrivilegedPPOPolicy(MultiInputActorCriticPolicy):

@@ -74,6 +74,7 @@ ENVIRONMENT: dict[str, Callable[[Rng], Any]] = {
     "observation_delay": one_of(0, 1),
     "perturb": one_of(None, "late_actions", "payload"),
     "randomise": one_of(None, "default"),
+    "privileged": one_of(None, "current", ["vehicle", "truth"]),
     "vehicle_pool": constant(4),
     "vehicle_seed": one_of(0, 1),
     "start_radius": number(0.1, 2.0),
