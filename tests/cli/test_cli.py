@@ -205,6 +205,15 @@ def test_python_runs_the_package_as_the_command() -> None:
         ("train --run x --resume", r"x holds no run"),
         ("train --run x --resume --seed 3 --force", r"--seed, --force cannot go with --resume"),
         ("train --run x --resume --set current=1", r"--set cannot go with --resume"),
+        (
+            "train --run x --resume --privileged-critic current",
+            r"--privileged-critic cannot go with --resume",
+        ),
+        ("train --run x --privileged-critic thrust", r"privileged_critic\.0 = 'thrust'"),
+        (
+            "train --run x --algorithm crossq --privileged-critic current",
+            r"crossq.* takes no observations in parts",
+        ),
         ("vehicles export titanic", r"no vehicle 'titanic' in the catalogue"),
     ],
 )
