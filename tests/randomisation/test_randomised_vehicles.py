@@ -126,6 +126,24 @@ def test_second_moments_are_those_of_the_points(points):
 # What each entry does
 
 
+@given(seeds)
+def test_within_20_percent_varies_mass_added_mass_and_damping_of_a_ballasted_vehicle(seed):
+    vehicle = load_vehicle("bluerov2_heavy")
+    drawn = Randomisation.load("within_20_percent").draw(vehicle, seed)
+    growth = drawn.rigid_body.mass / vehicle.rigid_body.mass
+    factors = [growth]
+    for name in ("added_mass", "linear_damping", "quadratic_damping"):
+        own, other = np.array(getattr(vehicle, name)), np.array(getattr(drawn, name))
+        own, other = (np.diag(one) if one.ndim == 2 else one for one in (own, other))
+        factors += (other[own != 0.0] / own[own != 0.0]).tolist()
+    assert len(factors) > 12
+    assert 0.8 <= min(factors) <= max(factors) <= 1.2
+    assert drawn.weight == pytest.approx(growth * vehicle.weight)
+    assert drawn.buoyant_force == pytest.approx(growth * vehicle.buoyant_force)
+    assert np.allclose(drawn.restoring_arm, growth * vehicle.restoring_arm)
+    assert (drawn.wrench_limits == vehicle.wrench_limits).all()
+
+
 @pytest.mark.parametrize("vehicle", VEHICLES.values(), ids=VEHICLES)
 def test_nothing_named_changes_nothing(vehicle):
     assert Randomisation().draw(vehicle, 0) == vehicle
