@@ -1,0 +1,206 @@
+"""Train the policies of presets with several seeds, and fly each through episodes that it has never seen.
+
+Run: python benchmarks/training_seeds.py [--preset NAME ...] [--seed N ...] [--episodes N] [--runs FOLDER] [--out FILE]
+
+Each run is that of `dq-marine train --preset NAME --seed N --run FOLDER/NAME-N`; one that is in the folder already, and
+has ended, is not trained again. Writes the tables of docs/howto/shipped_policies.md, between its words. A bound is kept
+in an episode where the means of both errors over its last third are within it. In the helix, errors are root mean
+squares: over all instants, with the way from the start to the point, and over the last thirds, without it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from suite import circumstances
+from suite.tables import table
+
+from dq_marine.agents.environments import make_environment, scenario_settings
+from dq_marine.agents.evaluation.episodes import Episode, fly_episode
+from dq_marine.agents.evaluation.metrics import Metric
+from dq_marine.agents.policies import load_policy, trained_environment
+from dq_marine.agents.policy_names import policy_path
+from dq_marine.agents.settings import EnvironmentSettings
+from dq_marine.backend.workers import usable_cores
+from dq_marine.envs.scenarios.files import load_scenario
+from dq_marine.report.machine import cpu_model, load
+from dq_marine.util.files import with_folder, write_json, write_whole
+
+PAGE = circumstances.ROOT / "docs" / "howto" / "shipped_policies.md"
+BEGIN, END = "<!-- benchmarks/training_seeds.py -->\n", "<!-- end -->\n"
+UNSEEN = 5_000_000
+"""Seed of the first episode: beyond those of trainings and evaluations."""
+
+
+class Bound(NamedTuple):
+    """Within what the two errors of a task shall stay, in the units that people read; and a scenario to fly besides."""
+
+    errors: tuple[float, float]
+    scenario: str | None = None
+
+
+BOUNDS = {
+    "StationKeeping": Bound((0.05, 3.0)),
+    "TrajectoryTracking": Bound((0.1, 5.0), "TrajectoryTracking/helix_of_unknown_vehicle"),
+}
+
+
+@dataclass(frozen=True)
+class Flights:
+    """What a policy did in its episodes.
+
+    Attributes:
+        episodes: how many.
+        successes: of them that succeeded, as the task says.
+        kept: of them in which the bound was kept.
+        percentile: the 95th of each error's mean over the last third.
+        whole: each error's root mean square over all instants of all episodes.
+        steady: the same over their last thirds.
+    """
+
+    episodes: int
+    successes: int
+    kept: int
+    percentile: list[float]
+    whole: list[float]
+    steady: list[float]
+
+
+def train(preset: str, seed: int, folder: Path) -> dict[str, Any]:
+    """Return the summary of a run, which is trained if it is not there, with the times that the command took."""
+    file, command_file = folder / "summary.json", folder / "command.json"
+    if not file.is_file():
+        command = [sys.executable, "-m", "dq_marine", "train", "--preset", preset, "--seed", str(seed)]
+        began, before = time.monotonic(), processor_time()
+        subprocess.run([*command, "--run", str(folder), "--force"], check=True)
+        times = {"command_s": time.monotonic() - began, "processor_s": processor_time() - before}
+        write_json(command_file, times)
+    summary: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+    return summary | json.loads(command_file.read_text(encoding="utf-8"))
+
+
+def processor_time() -> float:
+    """Return what children that have ended took of the processor [s]."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def errors_of(episode: Episode, metric: Metric, *, steady: bool) -> Any:
+    """Return an error over an episode, or over its last third, in the unit that people read."""
+    values = metric.shown(episode.measured[metric.name])
+    return values[episode.last_third] if steady else values
+
+
+def flights(policy: Path, environment: EnvironmentSettings, bound: Bound, episodes: int) -> Flights:
+    """Fly a policy through episodes that it has not seen."""
+    env, agent = make_environment(environment), load_policy(policy)
+    flown = [fly_episode(env, agent, seed=UNSEEN + number) for number in range(episodes)]
+    metrics = flown[0].metrics
+
+    def root_mean_squares(*, steady: bool) -> list[float]:
+        every = [
+            np.concatenate([errors_of(one, metric, steady=steady) for one in flown]) for metric in metrics
+        ]
+        return [float(np.sqrt(np.mean(np.square(values)))) for values in every]
+
+    means = np.array([[errors_of(one, metric, steady=True).mean() for metric in metrics] for one in flown])
+    return Flights(
+        episodes,
+        sum(one.success for one in flown),
+        int(np.count_nonzero((means <= bound.errors).all(axis=1))),
+        np.percentile(means, 95.0, axis=0).tolist(),
+        root_mean_squares(steady=False),
+        root_mean_squares(steady=True),
+    )
+
+
+def kept_flights(
+    file: Path, policy: Path, environment: EnvironmentSettings, bound: Bound, episodes: int
+) -> Flights:
+    """Return the flights of a policy, which stand in a file once they are flown."""
+    if not file.is_file():
+        write_json(with_folder(file), vars(flights(policy, environment, bound, episodes)))
+    return Flights(**json.loads(file.read_text(encoding="utf-8")))
+
+
+def cells_of(policy: Path, bound: Bound, episodes: int, folder: Path) -> list[str]:
+    """Return what a policy did, as the last cells of its row."""
+    file = folder / f"flights_{episodes}.json"
+    own = kept_flights(file, policy, trained_environment(policy), bound, episodes)
+    cells = [f"{own.successes} of {episodes}", f"{own.kept} of {episodes}"]
+    cells += [f"{number:.3g}" for number in own.percentile]
+    if bound.scenario is not None:
+        helix = scenario_settings(load_scenario(bound.scenario))
+        there = kept_flights(folder / f"helix_{episodes}.json", policy, helix, bound, episodes)
+        cells += [f"{there.kept} of {episodes}"]
+        cells += [f"{whole:.3g}, {late:.3g}" for whole, late in zip(there.whole, there.steady, strict=True)]
+    return cells
+
+
+def section(preset: str, seeds: Sequence[int], episodes: int, runs: Path) -> str:
+    """Return the table of a preset, with its heading."""
+    bound = BOUNDS[preset]
+    rows = [
+        ["as it ships", "", "", *cells_of(policy_path(preset), bound, episodes, runs / f"{preset}-shipped")]
+    ]
+    for seed in seeds:
+        folder = runs / f"{preset}-{seed}"
+        run = train(preset, seed, folder)
+        times = [f"{run[name]:.0f}" for name in ("command_s", "processor_s")]
+        rows.append([f"seed {seed}", *times, *cells_of(folder, bound, episodes, folder)])
+    position, angle = bound.errors
+    header = [
+        "policy",
+        "wall time [s]",
+        "processor time [s]",
+        "success",
+        f"within {position:g} m and {angle:g} deg",
+        "position, 95 % [m]",
+        "angle, 95 % [deg]",
+    ]
+    if bound.scenario is not None:
+        header += ["helix: within the same", "helix: position, RMS [m]", "helix: heading, RMS [deg]"]
+    return f"### {preset}\n\n{table(header, rows)}\n"
+
+
+def provenance(wanted: argparse.Namespace) -> str:
+    """Return command, machine and versions, as a paragraph."""
+    chosen = [f"--preset {one}" for one in wanted.preset] + [f"--seed {one}" for one in wanted.seed]
+    installed = ", ".join(f"{name} {version}" for name, version in circumstances.versions().items())
+    return (
+        f"`python benchmarks/training_seeds.py {' '.join(chosen)} --episodes {wanted.episodes}`\n\n"
+        f"{cpu_model()}, {usable_cores()} processors, load at the end {load()}; {installed}.\n"
+    )
+
+
+def main() -> None:
+    """Train, fly, and write the tables into the page."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--preset", action="append", choices=list(BOUNDS))
+    parser.add_argument("--seed", action="append", type=int)
+    parser.add_argument("--episodes", type=int, default=200)
+    parser.add_argument("--runs", type=Path, default=circumstances.ROOT / "runs")
+    parser.add_argument("--out", type=Path, default=PAGE)
+    wanted = parser.parse_args()
+    wanted.preset = wanted.preset or list(BOUNDS)
+    wanted.seed = wanted.seed or list(range(5))
+    sections = [section(one, wanted.seed, wanted.episodes, wanted.runs) for one in wanted.preset]
+    before, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
+    tables = f"{BEGIN}\n{provenance(wanted)}\n{''.join(sections)}"
+    write_whole(with_folder(wanted.out), before + tables + END + rest.split(END)[1])
+
+
+if __name__ == "__main__":
+    main()
