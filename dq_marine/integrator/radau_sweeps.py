@@ -36,7 +36,7 @@ HOPELESS = 1e12  # of the size, squared: sweeps that change more diverge
 CORNER_PERIOD = 3  # sweeps from one look at corners to the next: they settle sooner than the rest
 CORNER_SWEEPS = 16  # that follow corners: where zeros come and go for longer, sweeps go on without
 
-ENDING = Ending(0.0003, 0.03, 0.002, 0.06)
+ENDING = Ending(0.0003, 0.0, 0.0003, 0.06)
 """Of sweeps, by the highest power in the polynomial through the rates."""
 
 Solve: TypeAlias = Callable[
