@@ -50,6 +50,13 @@ class RunPlan:
     versions: dict[str, str]
 
 
+def damaged_summary(path: Path, error: Exception) -> InvalidInputError:
+    """Return what to raise where a run's summary does not say how the run ended."""
+    return InvalidInputError(
+        f"{path} is missing or damaged: {shown(error)}; remove it, and continue the run, which writes it again"
+    )
+
+
 class RunFolder:
     """Reads and writes a run's folder; knows nothing of what is in the models."""
 
@@ -62,7 +69,7 @@ class RunFolder:
         self.path = possible_path("run", path)
         self.tensorboard = self.path / "tensorboard"
         self._plan_file = self.path / "run.json"
-        self._summary_file = self.path / "summary.json"
+        self.summary_file = self.path / "summary.json"
 
     @property
     def holds_run(self) -> bool:
@@ -84,8 +91,7 @@ class RunFolder:
             raise unwritable(self.path, error) from error
         with self.locked():
             self._check_free(force)  # again: another process may have begun a run before the lock was ours
-            if self.holds_run:
-                self._remove_run()
+            self.remove_run()
             self.write_plan(plan)
             yield
 
@@ -200,24 +206,49 @@ class RunFolder:
 
     def write_summary(self, content: dict[str, Any]) -> None:
         """Write `summary.json`."""
-        write_json(self._summary_file, content)
+        write_json(self.summary_file, content)
 
     def is_summed_up(self, timesteps: int) -> bool:
         """Whether `summary.json` is there, and of a run that ended after so many timesteps."""
         try:
-            file = existing_file("summary", self._summary_file)  # a pipe would never end
+            file = existing_file("summary", self.summary_file)  # a pipe would never end
             return file is not None and bool(
                 json.loads(file.read_text(encoding="utf-8"))["timesteps"] == timesteps
             )
         except (OSError, ValueError, KeyError, TypeError, RecursionError):
             return False
 
+    def is_finished(self, timesteps: int) -> bool:
+        """Whether the run has learned from that many timesteps, and has said how it ended.
+
+        Raises:
+            InvalidInputError: all checkpoints are damaged.
+        """
+        done = self.progress("checkpoints").timesteps
+        return done >= timesteps and self.is_summed_up(done)
+
+    def read_summary(self) -> Any:
+        """Read `summary.json`.
+
+        Raises:
+            InvalidInputError: it is missing, or cannot be read as JSON.
+        """
+        try:
+            return json.loads(self.summary_file.read_text(encoding="utf-8"))
+        except (OSError, ValueError, RecursionError) as error:
+            raise damaged_summary(self.summary_file, error) from error
+
     def _snapshots(self, kind: Kind) -> list[Path]:
         return [one for one in (self.path / kind).glob("[0-9]*") if one.name.isdecimal() and one.is_dir()]
 
-    def _remove_run(self) -> None:
-        """Remove what a run writes, and nothing else; the plan last, so that an interrupted removal can be resumed."""
+    def remove_run(self) -> None:
+        """Remove what a run wrote, and nothing else; the plan last, so that an interrupted removal can be resumed.
+
+        Who calls it holds the lock.
+        """
+        if not self.holds_run:
+            return
         for folder in (self.path / "checkpoints", self.path / "best", self.tensorboard):
             shutil.rmtree(folder, ignore_errors=True)
-        self._summary_file.unlink(missing_ok=True)
+        self.summary_file.unlink(missing_ok=True)
         self._plan_file.unlink()

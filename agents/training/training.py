@@ -142,10 +142,10 @@ def resume_training(
             plan = RunPlan(settings, plan.seed, plan.versions)
         progress, total = folder.progress("checkpoints"), plan.settings.timesteps
         check_lesson(plan.settings, progress.lesson, folder.path)
-        done = progress.timesteps
-        if done >= total and folder.is_summed_up(done):  # else it was killed before it could say how it ended
+        if folder.is_finished(total):  # else it may have been killed before it could say how it ended
             raise InvalidInputError(
-                f"{folder.path} has learned from {done} timesteps, of {total} asked for; ask for more with --timesteps"
+                f"{folder.path} has learned from {progress.timesteps} timesteps, of {total} asked for; ask for more "
+                "with --timesteps"
             )
         folder.write_plan(plan)
         return _train(folder, plan, callbacks, console, watch)

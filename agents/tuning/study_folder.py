@@ -16,9 +16,9 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from dq_marine.agents.locked_folder import folder_locked, holds_anything
+from dq_marine.agents.plan_differences import told_differences
 from dq_marine.agents.preset_files import validate_settings
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.run_folder import LARGEST_SEED
@@ -110,17 +110,8 @@ class StudyFolder:
         found = self.read_plan()
         if found == plan:
             return
-        ours, theirs = (_flat(one.base.model_dump(mode="json") | {"seed": one.seed}) for one in (plan, found))
-        names = [name for name in sorted({*ours, *theirs}) if ours.get(name) != theirs.get(name)]
-        told = "; ".join(f"{one} is {theirs.get(one)!r}, not {ours.get(one)!r}" for one in names)
+        theirs, ours = (one.base.model_dump(mode="json") | {"seed": one.seed} for one in (found, plan))
         raise InvalidInputError(
-            f"{self.path} holds another study: {told}; go on with the same options, or choose another folder"
+            f"{self.path} holds another study: {told_differences(theirs, ours)}; go on with the same options, or "
+            "choose another folder"
         )
-
-
-def _flat(content: dict[str, Any], above: str = "") -> dict[str, Any]:
-    """Return nested dictionaries as one, by names with dots."""
-    flat: dict[str, Any] = {}
-    for name, value in content.items():
-        flat |= _flat(value, f"{above}{name}.") if isinstance(value, dict) else {above + name: value}
-    return flat

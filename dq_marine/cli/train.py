@@ -9,12 +9,15 @@ import typer
 
 from dq_marine.cli.common import console, examples
 from dq_marine.cli.options import (
+    AddressOption,
     AlgorithmOption,
     CurrentOption,
+    DistributedOption,
     EnvsOption,
     LevelOption,
     PerturbOption,
     PrintPresetOption,
+    ProcessesOption,
     SetOption,
     TaskOption,
     TrainingPresetOption,
@@ -31,6 +34,8 @@ EXAMPLES = examples(
     "dq-marine train --run runs/ppo",
     "dq-marine train --run runs/ppo --resume",
     "dq-marine train --run runs/sac --algorithm sac --seed 1",
+    "dq-marine train --run runs/five --seeds 5 --processes 2",
+    "dq-marine train --run runs/many --seeds 20 --distributed --address 10.0.0.1:6379",
     "dq-marine train --run runs/memory --algorithm recurrent_ppo",
     "dq-marine train --run runs/docking --task Docking --imitate controller",
     "dq-marine train --run runs/lessons --task Docking --level medium --curriculum easy",
@@ -95,6 +100,20 @@ def train(
             "--seed", min=0, help="Seed of networks, starts and currents, at most 2^32 - 1.", show_default="0"
         ),
     ] = None,
+    seeds: Annotated[
+        int | None,
+        typer.Option(
+            "--seeds",
+            min=1,
+            metavar="N",
+            help="Train with N seeds, from --seed on, each in a run folder of its own inside --run. The same command "
+            "goes on where it was stopped, and with a larger N adds to it.",
+            show_default="one run, in --run itself",
+        ),
+    ] = None,
+    processes: ProcessesOption = None,
+    distributed: DistributedOption = False,
+    address: AddressOption = None,
     task: TaskOption = None,
     vehicle: VehicleOption = None,
     level: LevelOption = None,
@@ -114,15 +133,29 @@ def train(
 
     TensorBoard shows returns, what the learner reports, and of each episode the metrics at its end (episode_end/...),
     and the sums of its reward terms (episode_reward/...); of evaluations the same (eval/...).
+
+    What one seed learned another may not: --seeds trains several, side by side or with --distributed on a cluster, and
+    shows how each ended, their mean, and how many learned the task.
     """
     from dq_marine.agents.training.run_folder import RunFolder
     from dq_marine.cli.agent_options import EnvironmentOptions, requested_training
+    from dq_marine.cli.seeds import requested_way, train_several
 
     if run is None and (resume or not only_print):
         raise typer.BadParameter("name a folder for the run, as in --run runs/ppo", param_hint="--run")
+    spread = {"processes": processes, "distributed": distributed, "address": address}
+    if seeds is None:
+        _refuse("needs --seeds, too: it says who trains when there are several", **spread)
+    else:
+        _refuse(
+            "cannot go with --seeds: the same command goes on where it was, and what to follow is one run",
+            resume=resume,
+            watch=watch,
+        )
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
     if resume:
-        _refuse_with_resume(
+        _refuse(
+            "cannot go with --resume: a run goes on as it was begun; leave it out, or train in another folder",
             algorithm=algorithm,
             preset=preset,
             envs=envs,
@@ -147,6 +180,10 @@ def train(
         )
     if run is None or only_print:
         print_preset(settings or RunFolder(run or "").read_plan().settings)
+        return
+    if settings is not None and seeds is not None:
+        way = requested_way(processes, distributed=distributed, address=address)
+        train_several(run, settings, range(seed or 0, (seed or 0) + seeds), way=way, force=force)
         return
     _train(RunFolder(run), settings, timesteps=timesteps, seed=seed or 0, force=force, watch=watch)
 
@@ -184,11 +221,8 @@ def _train(
     )
 
 
-def _refuse_with_resume(**options: object) -> None:
-    """Refuse options that a resumed run cannot change."""
+def _refuse(why: str, **options: object) -> None:
+    """Refuse options that say nothing here, or contradict others."""
     given = [f"--{name}" for name, value in options.items() if value is not None and value is not False]
     if given:
-        raise InvalidInputError(
-            f"{', '.join(given)} cannot go with --resume: a run goes on as it was begun; leave it out, or train in "
-            "another folder"
-        )
+        raise InvalidInputError(f"{', '.join(given)} {why}")
