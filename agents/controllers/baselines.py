@@ -128,6 +128,9 @@ MODEL_BASED: dict[str, Callable[[gym.Env[Any, Any]], Agent]] = {"lqr": _lqr, "mp
 AGENTS = (*BASELINES, *MODEL_BASED)
 """Names that `make_baseline` takes."""
 
+DRAWING = ("random",)
+"""Those whose actions in an episode depend on the episodes before: they go on drawing."""
+
 
 def make_baseline(name: str, env: gym.Env[Any, Any], seed: int = 0) -> Agent:
     """Return one of `AGENTS` for an environment.

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from dq_marine.agents.tuning.search_space import search_space, with_values
+from dq_marine.agents.tuning.study import Tried
 from dq_marine.agents.tuning.study_folder import StudyFolder, StudyPlan
-from dq_marine.agents.tuning.tuning import Tried
 from dq_marine.util.figures import new_figure, save_figure
 from dq_marine.util.files import write_whole
 from dq_marine.util.plot_style import INK

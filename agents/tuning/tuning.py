@@ -1,4 +1,4 @@
-"""Search for hyperparameters by Optuna, in one process or several, which goes on where it was stopped.
+"""Search for hyperparameters by Optuna, in one process, several or on a cluster, which goes on where it was stopped.
 
 The first trial is the training as it is, so that the best is no worse. Others are proposed by a tree-structured Parzen
 estimator (Bergstra et al. 2011, NeurIPS), and given up where they are worse than the median of those before (Golovin et
@@ -9,20 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, wait
-from dataclasses import dataclass
 from itertools import islice
-from typing import Any
+from typing import TypeAlias
 
 from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.training.beginning import check_can_begin
 from dq_marine.agents.training.run_folder import LARGEST_SEED
-from dq_marine.agents.tuning.search_space import (
-    Space,
-    chosen_values,
-    proposals_of,
-    search_space,
-    with_values,
-)
+from dq_marine.agents.tuning.search_space import chosen_values, search_space, with_values
+from dq_marine.agents.tuning.study import FAILURES, Tried, asked, ended, study_on_disk, take_up, tried
 from dq_marine.agents.tuning.study_folder import StudyFolder, StudyPlan
 from dq_marine.checks import whole_number
 from dq_marine.errors import InvalidInputError
@@ -31,42 +25,17 @@ from dq_marine.util.side_by_side import workers
 
 with extra_needed("a search for hyperparameters", "tune"):
     import optuna
-    from optuna.trial import FrozenTrial, TrialState
+    from optuna.trial import TrialState
 
 MOST_PROCESSES = 256
 EVALUATIONS = 8
 """While a trial trains, at least: it may be given up after each."""
 
-UNJUDGED_TRIALS = 4
-"""Before any is given up."""
+After: TypeAlias = Callable[[list[Tried]], None]
+"""Called with all trials that have ended, whenever one has."""
 
-UNJUDGED_SHARE = 0.25
-"""Of a trial's timesteps, before it may be given up."""
-
-AGAIN = "again"
-"""Attribute of a trial that tries again what a killed process left behind: the number of that trial."""
-
-FAILURES = (InvalidInputError, ValueError, ArithmeticError)
-"""Of one trial, after which the search goes on: values that do not go together, and numbers that are not finite."""
-
-
-@dataclass(frozen=True)
-class Tried:
-    """A trial that ended.
-
-    Attributes:
-        number: it counts up from 0, which is the training as it is.
-        mean_return: of its best evaluation; None if it failed.
-        timesteps: after which it ended.
-        given_up: whether it ended early.
-        values: that it trained with, by the paths of their fields in the settings.
-    """
-
-    number: int
-    mean_return: float | None
-    timesteps: int
-    given_up: bool
-    values: dict[str, Any]
+Way: TypeAlias = "Callable[[StudyFolder, StudyPlan, range, optuna.Study, After], None]"
+"""(folder, plan, which trials, counted from 0, study, after): trains trials, and tells the study how they ended."""
 
 
 def plan_of(settings: TrainingSettings, *, seed: int) -> StudyPlan:
@@ -93,7 +62,8 @@ def tune(
     *,
     trials: int,
     processes: int = 1,
-    after: Callable[[list[Tried]], None] = lambda tried: None,
+    way: Way | None = None,
+    after: After = lambda tried: None,
 ) -> list[Tried]:
     """Search until so many trials have ended in all, and return them, the best first.
 
@@ -104,7 +74,8 @@ def tune(
         folder: of the study: new, or one to go on with.
         plan: what is searched.
         trials: in all, with those of before.
-        processes: that train at a time.
+        processes: of this machine that train at a time.
+        way: how trials are trained instead, as `cluster_trials.on_cluster` makes it.
         after: called with all trials that have ended, whenever one has.
 
     Raises:
@@ -113,83 +84,18 @@ def tune(
     trials = whole_number("trials", trials, least=1)
     processes = whole_number("processes", processes, least=1, most=MOST_PROCESSES)
     with folder.begun(plan):
-        study = _study(folder, plan)
-        _take_up(study, plan)
-        coming = range(len(_ended(study)), trials)
-        if min(processes, len(coming)) <= 1:
-            for index in coming:
-                _try(folder, index, _asked(study))
-                after(tried(study, plan))
-        else:
-            _try_side_by_side(folder, coming, min(processes, len(coming)), study, after)
+        study = study_on_disk(folder, plan)
+        take_up(study, plan)
+        coming = range(len(ended(study)), trials)
+        if coming:
+            (way or _by_processes(min(processes, len(coming))))(folder, plan, coming, study, after)
         return tried(study, plan)
-
-
-def tried(study: optuna.Study, plan: StudyPlan) -> list[Tried]:
-    """Return the trials that ended, the best first, failed ones last."""
-    space = search_space(plan.base)
-    return sorted(
-        (_tried(trial, space) for trial in _ended(study)),
-        key=lambda one: (one.mean_return is None, one.given_up, -(one.mean_return or 0.0), one.number),
-    )
-
-
-def _tried(trial: FrozenTrial, space: Space) -> Tried:
-    told = trial.intermediate_values
-    return Tried(
-        number=trial.number,
-        mean_return=None if trial.state is TrialState.FAIL else trial.value,
-        timesteps=max(told, default=0),
-        given_up=trial.state is TrialState.PRUNED,
-        values=chosen_values(space, optuna.trial.FixedTrial(trial.params, trial.number)),
-    )
-
-
-def _study(folder: StudyFolder, plan: StudyPlan, index: int = 0) -> optuna.Study:
-    """Return the study on disk, made if need be, with the sampler of its trial of that index.
-
-    A sampler of each trial's own, so that a search that was stopped goes on as if it had not been.
-    """
-    optuna.logging.set_verbosity(optuna.logging.ERROR)
-    warmup = int(UNJUDGED_SHARE * plan.base.timesteps)
-    return optuna.create_study(
-        study_name="study",
-        storage=f"sqlite:///{folder.database.resolve()}",
-        load_if_exists=True,
-        direction="maximize",
-        sampler=optuna.samplers.TPESampler(seed=(plan.seed + index) % (LARGEST_SEED + 1)),
-        pruner=optuna.pruners.MedianPruner(n_startup_trials=UNJUDGED_TRIALS, n_warmup_steps=warmup),
-    )
-
-
-def _take_up(study: optuna.Study, plan: StudyPlan) -> None:
-    """Have the training as it is tried first, and again what a killed process left behind."""
-    if not study.trials:
-        study.enqueue_trial(proposals_of(plan.base, search_space(plan.base)))
-    for trial in study.get_trials(deepcopy=False, states=(TrialState.RUNNING,)):
-        study.enqueue_trial(trial.params, user_attrs={AGAIN: trial.number})
-        study.tell(trial.number, state=TrialState.FAIL)
-
-
-def _ended(study: optuna.Study) -> list[FrozenTrial]:
-    """Return the trials that ended, without those that are tried again."""
-    trials = study.get_trials(deepcopy=False)
-    again = {trial.user_attrs.get(AGAIN) for trial in trials}
-    return [trial for trial in trials if trial.state.is_finished() and trial.number not in again]
-
-
-def _asked(study: optuna.Study) -> int:
-    """Return the number of another trial to be trained.
-
-    Only the process that hands trials out asks for them: two that ask at once may be given the same one that waits.
-    """
-    return study.ask().number
 
 
 def _try(folder: StudyFolder, index: int, number: int) -> None:
     """Train one trial to its end, or until it is given up."""
     plan = folder.read_plan()
-    space, study = search_space(plan.base), _study(folder, plan, index)
+    space, study = search_space(plan.base), study_on_disk(folder, plan, index)
     trial = optuna.Trial(study, study.get_trials(deepcopy=False)[number]._trial_id)
 
     def tell(timesteps: int, mean_return: float) -> None:
@@ -220,28 +126,33 @@ def _trial_return(
     return trial_return(settings, seed=seed, logs=folder.tensorboard / f"trial{number:04d}", tell=tell)
 
 
-def _try_side_by_side(
-    folder: StudyFolder,
-    coming: range,
-    processes: int,
-    study: optuna.Study,
-    after: Callable[[list[Tried]], None],
+def _by_processes(count: int) -> Way:
+    """Return the way that trains with this process, or so many others."""
+
+    def side_by_side(
+        folder: StudyFolder, plan: StudyPlan, coming: range, study: optuna.Study, after: After
+    ) -> None:
+        with workers(count) as pool:
+            waiting = iter(coming)
+
+            # One that has ended makes room for the next, so that none is begun that was not asked for.
+            def begin(room: int) -> set[Future[None]]:
+                return {pool.submit(_try, folder, index, asked(study)) for index in islice(waiting, room)}
+
+            working = begin(count)
+            while working:
+                done, working = wait(working, return_when=FIRST_COMPLETED)
+                for one in done:
+                    one.result()
+                working |= begin(len(done))
+                after(tried(study, plan))
+
+    return side_by_side if count > 1 else _one_after_the_other
+
+
+def _one_after_the_other(
+    folder: StudyFolder, plan: StudyPlan, coming: range, study: optuna.Study, after: After
 ) -> None:
-    """Train so many trials at a time, and say so whenever one has ended.
-
-    One that has ended makes room for the next, so that none is begun that was not asked for.
-    """
-    plan = folder.read_plan()
-    with workers(processes) as pool:
-        waiting = iter(coming)
-
-        def begin(count: int) -> set[Future[None]]:
-            return {pool.submit(_try, folder, index, _asked(study)) for index in islice(waiting, count)}
-
-        working = begin(processes)
-        while working:
-            done, working = wait(working, return_when=FIRST_COMPLETED)
-            for one in done:
-                one.result()
-            working |= begin(len(done))
-            after(tried(study, plan))
+    for index in coming:
+        _try(folder, index, asked(study))
+        after(tried(study, plan))

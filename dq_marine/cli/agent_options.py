@@ -15,11 +15,13 @@ from dq_marine.agents.policies import is_exported
 from dq_marine.agents.policy_names import policy_path
 from dq_marine.agents.preset_files import read_environment, read_settings, validate_settings
 from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
+from dq_marine.backend.workers import usable_cores
 from dq_marine.checks import one_of
 from dq_marine.cli.keyword_values import read_keywords
 from dq_marine.envs.core.perturbations import PERTURBATIONS
 from dq_marine.envs.scenarios.model import Scenario
 from dq_marine.errors import InvalidInputError
+from dq_marine.util.cluster import Cluster, cluster_workers
 from dq_marine.util.side_by_side import Team, team_here
 from dq_marine.vehicles import vehicle_names
 
@@ -90,22 +92,27 @@ class EnvironmentOptions:
         }
 
 
+def requested_cluster(processes: int | None, *, distributed: bool, address: str | None) -> Cluster | None:
+    """Return the cluster of Ray that is to work, one that is begun here with all cores by default; None without.
+
+    Raises:
+        InvalidInputError: an address is given, and the work is not to be distributed.
+    """
+    if distributed:
+        return lambda: cluster_workers(address, processes or usable_cores())
+    if address is not None:
+        raise InvalidInputError(f"--address {address} needs --distributed; give both, or neither")
+    return None
+
+
 def requested_team(processes: int | None, *, distributed: bool, address: str | None) -> Team:
     """Return who works side by side: processes of this machine, all cores by default, or a cluster of Ray.
 
     Raises:
         InvalidInputError: an address is given, and the work is not to be distributed.
     """
-    from dq_marine.backend.workers import usable_cores
-
-    count = processes or usable_cores()
-    if distributed:
-        from dq_marine.util.cluster import cluster_workers
-
-        return lambda tasks: cluster_workers(address, count)
-    if address is not None:
-        raise InvalidInputError(f"--address {address} needs --distributed; give both, or neither")
-    return team_here(count)
+    cluster = requested_cluster(processes, distributed=distributed, address=address)
+    return team_here(processes or usable_cores()) if cluster is None else lambda tasks: cluster()
 
 
 def requested_policies(policies: Sequence[str]) -> list[Path]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,8 +12,10 @@ import typer
 
 from dq_marine.cli.common import console, examples
 from dq_marine.cli.options import (
+    AddressOption,
     Baseline,
     CurrentOption,
+    DistributedOption,
     EnvironmentPresetOption,
     LevelOption,
     PerturbOption,
@@ -24,6 +28,7 @@ from dq_marine.cli.options import (
     baselines_option,
     print_preset,
 )
+from dq_marine.errors import InvalidInputError
 
 if TYPE_CHECKING:
     from dq_marine.agents.evaluation.episodes import Episode
@@ -35,6 +40,7 @@ EXAMPLES = examples(
     "dq-marine evaluate --run runs/ppo --agent controller --agent zero --episodes 100",
     "dq-marine evaluate --run runs/ppo --set current=0.5",
     "dq-marine evaluate --run runs/ppo --agent controller --perturb payload --perturb late_actions",
+    "dq-marine evaluate --task TrajectoryTracking --agent mpc --episodes 1000 --processes 8",
     "dq-marine evaluate --policy policy.onnx --agent controller",
     "dq-marine evaluate --scenario StationKeeping/strong_current --scenario StationKeeping/failed_dvl",
     "dq-marine evaluate --scenario Encounter --agent controller --json imazu.json",
@@ -98,24 +104,49 @@ def evaluate(
         ),
     ] = None,
     form: Annotated[Format, typer.Option("--format", help="Format of these files.")] = Format.CSV,
+    processes: Annotated[
+        int | None,
+        typer.Option(
+            "--processes", min=1, max=256, help="How many fly at a time.", show_default="this one alone"
+        ),
+    ] = None,
+    distributed: DistributedOption = False,
+    address: AddressOption = None,
     only_print: PrintPresetOption = False,
 ) -> None:
     """Compare agents over the same seeded episodes: metrics, returns, success; or in scenarios.
 
     A run is evaluated in what it was trained in, or where an option says so, under other conditions: the table says
     which. A scenario is an episode that can be repeated: its start, its currents and its seed are fixed.
+
+    Thousands of episodes, or an agent that thinks for long, are flown side by side by --processes or on a cluster by
+    --distributed. The scores are the same.
     """
     from dq_marine.agents.choice import make_agents, other_conditions
     from dq_marine.agents.controllers.baselines import BASELINES
     from dq_marine.agents.environments import make_environment
+    from dq_marine.agents.evaluation.evaluation import evaluate as evaluate_agents
     from dq_marine.agents.evaluation.evaluation import score_table
-    from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment, requested_policies
+    from dq_marine.agents.shared_evaluation import evaluate_by_team
+    from dq_marine.cli.agent_options import (
+        EnvironmentOptions,
+        requested_environment,
+        requested_policies,
+        requested_team,
+    )
     from dq_marine.cli.scenario_scores import Flights, evaluate_scenarios
 
     runs = [*(run or []), *requested_policies(policy or [])]
     baselines = agent or ([] if runs else [Baseline(name) for name in BASELINES])
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
+    team = requested_team(processes, distributed=distributed, address=address)
+    alone = processes is None and not distributed
     if scenario:
+        if not alone:
+            raise InvalidInputError(
+                f"--scenario {scenario[0]} is flown by this process; leave --processes and --distributed out, or fly "
+                "all scenarios with `dq-marine leaderboard --scenarios`, which takes them"
+            )
         flights = Flights(scenario, options, preset, baselines, runs, episodes or 1, seed)
         evaluate_scenarios(
             flights, json, None if trajectories is None else _keeper(trajectories, form), only_print
@@ -129,7 +160,12 @@ def evaluate(
     env = make_environment(environment)
     agents = make_agents(baselines, runs, env, seed=seed)
     keep = None if trajectories is None else _keeper(trajectories, form)
-    scores = _evaluated(env, agents, episodes, seed, keep)
+    fly = (
+        partial(evaluate_agents, env, agents)
+        if alone
+        else partial(evaluate_by_team, environment, baselines, runs, team=team)
+    )
+    scores = _evaluated(fly, episodes, len(agents), seed, keep)
     conditions = other_conditions(runs, environment)
     console.print(score_table(scores, _notes(conditions)))
     if json is not None:
@@ -139,23 +175,21 @@ def evaluate(
         console.print(f"Wrote {episodes * len(agents)} trajectories into {trajectories}", soft_wrap=True)
 
 
-def _evaluated(env: Any, agents: Any, episodes: int, seed: int, keep: Any) -> list[Score]:
+def _evaluated(
+    fly: Callable[..., list[Score]], episodes: int, agents: int, seed: int, keep: Any
+) -> list[Score]:
     """Evaluate behind a progress bar; `keep` is called with agent and episode, if it is not None."""
     from rich.progress import Progress
 
-    from dq_marine.agents.evaluation.evaluation import evaluate as evaluate_agents
-
     with Progress(console=console, transient=True) as bar:
-        shown = bar.add_task("evaluating", total=episodes * len(agents))
+        shown = bar.add_task("evaluating", total=episodes * agents)
 
         def advance(name: str, episode: Episode) -> None:
             if keep is not None:
                 keep(name, episode)
             bar.update(shown, advance=1, description=f"evaluating {name}")
 
-        return evaluate_agents(
-            env, agents, episodes=episodes, seed=seed, after_episode=advance, track=keep is not None
-        )
+        return fly(episodes=episodes, seed=seed, after_episode=advance, track=keep is not None)
 
 
 def _keeper(folder: Path, form: Format) -> Any:

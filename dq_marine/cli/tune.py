@@ -10,8 +10,10 @@ from rich.table import Table
 
 from dq_marine.cli.common import console, examples
 from dq_marine.cli.options import (
+    AddressOption,
     AlgorithmOption,
     CurrentOption,
+    DistributedOption,
     EnvsOption,
     LevelOption,
     PerturbOption,
@@ -23,11 +25,12 @@ from dq_marine.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from dq_marine.agents.tuning.tuning import Tried
+    from dq_marine.agents.tuning.study import Tried
 
 EXAMPLES = examples(
     "dq-marine tune --out studies/station --trials 30 --timesteps 300000",
     "dq-marine tune --out studies/docking --task Docking --level easy --algorithm sac --processes 2",
+    "dq-marine tune --out studies/docking --task Docking --trials 200 --distributed --address 10.0.0.1:6379",
     "dq-marine train --run runs/tuned --preset studies/docking/preset.toml --seed 1",
 )
 
@@ -53,6 +56,8 @@ def tune(
         int, typer.Option("--seed", min=0, help="Of all trials, and of how they are chosen.")
     ] = 0,
     processes: ProcessesOption = None,
+    distributed: DistributedOption = False,
+    address: AddressOption = None,
     task: TaskOption = None,
     vehicle: VehicleOption = None,
     level: LevelOption = None,
@@ -65,19 +70,26 @@ def tune(
     The first trial is the preset as it is; the others are proposed by Optuna, and given up early where they are worse
     than the median. The folder gets the best as a preset, all trials as a table and as a picture, and the study, which
     a stopped search goes on from: give the same command again, with more trials if you like.
+
+    With --distributed a trial is a task of Ray's. The study stays here, in SQLite, and other machines need not see it:
+    a trial asks after each evaluation whether to give up. --processes says how many train at a time on one machine, and
+    with --address, at most.
     """
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+    from dq_marine.agents.tuning.cluster_trials import on_cluster
     from dq_marine.agents.tuning.results import write_results
     from dq_marine.agents.tuning.study_folder import StudyFolder
     from dq_marine.agents.tuning.tuning import plan_of
     from dq_marine.agents.tuning.tuning import tune as search
     from dq_marine.backend.workers import usable_cores
-    from dq_marine.cli.agent_options import EnvironmentOptions, requested_training
+    from dq_marine.cli.agent_options import EnvironmentOptions, requested_cluster, requested_training
 
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
     settings = requested_training(options, algorithm=algorithm, preset=preset, timesteps=timesteps, envs=envs)
+    cluster = requested_cluster(processes, distributed=distributed, address=address)
     folder, plan = StudyFolder(out), plan_of(settings, seed=seed)
+    way = None if cluster is None else on_cluster(cluster, processes)
     columns = (
         TextColumn("[bold]{task.description}"),
         BarColumn(bar_width=20),
@@ -94,7 +106,9 @@ def tune(
             bar.update(going, completed=len(tried), best="-" if best is None else f"{best:.1f}")
 
         try:
-            found = search(folder, plan, trials=trials, processes=processes or usable_cores(), after=after)
+            found = search(
+                folder, plan, trials=trials, processes=processes or usable_cores(), way=way, after=after
+            )
         except KeyboardInterrupt:
             bar.stop()
             console.print(

@@ -12,9 +12,11 @@ import os
 import socket
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
+from contextlib import AbstractContextManager
 from typing import Any
 
 from dq_marine.errors import InvalidInputError
+from dq_marine.util.cluster_desk import Desk, new_desk
 from dq_marine.util.extras import optional_library
 from dq_marine.util.side_by_side import one_thread_each
 
@@ -44,13 +46,43 @@ class ClusterPool:
         task = self._ray.remote(function).options(num_cpus=1, max_retries=RETRIES)
         reference = task.remote(*arguments)
         self._asked.append(reference)
-        future: Future[Any] = reference.future()
-        return future
+        found: Future[Any] = Future()
+        reference.future().add_done_callback(lambda done: self._hand_on(done, found))
+        return found
+
+    def desk(self) -> Desk:
+        """Return a desk where tasks may ask this process."""
+        return new_desk()
+
+    def processors(self) -> int:
+        """Return how many tasks the cluster works on at a time, at least 1: machines come and go."""
+        return max(int(self._ray.cluster_resources().get("CPU", 0)), 1)
+
+    def _hand_on(self, done: Future[Any], found: Future[Any]) -> None:
+        """Hand on what a task came to, with its own error in place of Ray's, whose words are a traceback."""
+        error = done.exception()
+        if error is None:
+            found.set_result(done.result())
+        elif isinstance(cause := getattr(error, "cause", None), BaseException):
+            found.set_exception(cause)
+        elif isinstance(error, self._ray.exceptions.RayError):
+            found.set_exception(
+                InvalidInputError(
+                    f"its worker or machine was lost {RETRIES + 1} times, as where memory runs out: "
+                    f"{str(error).strip().partition(chr(10))[0]}; let fewer work on a machine at a time"
+                )
+            )
+        else:
+            found.set_exception(error)
 
     def give_up(self) -> None:
         """Take back what has not ended."""
         for reference in self._asked:
             self._ray.cancel(reference, force=True)
+
+
+Cluster = Callable[[], AbstractContextManager[ClusterPool]]
+"""What lets a cluster work within a block."""
 
 
 @contextlib.contextmanager
@@ -63,7 +95,7 @@ def cluster_workers(address: str | None, processes: int) -> Iterator[ClusterPool
 
     Raises:
         MissingDependencyError: Ray is not installed.
-        InvalidInputError: there is no cluster at the address.
+        InvalidInputError: there is no cluster at the address, or none can be begun here.
     """
     os.environ.update(SILENCE if address else SILENCE | LOOPBACK)
     ray = optional_library("work on a cluster", "ray", "distributed")
@@ -87,8 +119,12 @@ def _connect(ray: Any, address: str | None, processes: int) -> None:
         if host:  # Ray would wait for minutes
             socket.create_connection((host, int(port)), timeout=PATIENCE).close()
         ray.init(**where, logging_level=logging.ERROR, log_to_driver=False)
-    except (OSError, ValueError, RuntimeError) as error:
+    except Exception as error:  # Ray raises a bare one where its processes take long to begin
+        ray.shutdown()
         raise InvalidInputError(
-            f"no cluster of Ray answers at {address}: {error}; begin one with `ray start --head`, and give the address "
-            "that it prints, or leave the address out"
+            f"Ray cannot begin a cluster on this machine: {error}; try again when it is less busy, or leave "
+            "--distributed out"
+            if address is None
+            else f"no cluster of Ray answers at {address}: {error}; begin one with `ray start --head`, and give the "
+            "address that it prints, or leave the address out"
         ) from error

@@ -22,8 +22,9 @@ from dq_marine.agents.settings import TrainingSettings
 from dq_marine.agents.tuning import tuning
 from dq_marine.agents.tuning.results import write_results
 from dq_marine.agents.tuning.search_space import search_space, with_values
+from dq_marine.agents.tuning.study import Tried
 from dq_marine.agents.tuning.study_folder import StudyFolder
-from dq_marine.agents.tuning.tuning import Tried, plan_of, tune
+from dq_marine.agents.tuning.tuning import plan_of, tune
 from dq_marine.errors import InvalidInputError
 
 
