@@ -105,6 +105,7 @@ def train(
         typer.Option(
             "--seeds",
             min=1,
+            max=10_000,
             metavar="N",
             help="Train with N seeds, from --seed on, each in a run folder of its own inside --run. The same command "
             "goes on where it was stopped, and with a larger N adds to it.",

@@ -112,7 +112,8 @@ def cluster_workers(address: str | None, processes: int) -> Iterator[ClusterPool
 
 
 def _connect(ray: Any, address: str | None, processes: int) -> None:
-    here = {"num_cpus": processes, "include_dashboard": False}
+    # "local", or Ray would join a cluster of somebody else's that it finds on this machine.
+    here = {"address": "local", "num_cpus": processes, "include_dashboard": False}
     where = here if address is None else {"address": address}
     host, _, port = (address or "").removeprefix("ray://").rpartition(":")
     try:
