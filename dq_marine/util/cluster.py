@@ -26,6 +26,9 @@ RETRIES = 5
 PATIENCE = 10.0
 """How long a cluster may take to answer [s]."""
 
+ATTEMPTS = 5
+"""To begin a cluster here, each of which Ray gives half a minute: too little now and then on a busy machine."""
+
 SILENCE = {"RAY_USAGE_STATS_ENABLED": "0"}
 """Of the environment that Ray reads: it tells nobody that it is used."""
 
@@ -39,12 +42,12 @@ class ClusterPool:
     def __init__(self, ray: Any) -> None:
         """Take the library, which is connected to a cluster."""
         self._ray = ray
+        self._called = ray.remote(_called)
         self._asked: list[Any] = []
 
     def submit(self, function: Callable[..., Any], /, *arguments: Any) -> Future[Any]:
         """Let function(*arguments) be called somewhere, and return what will be its result."""
-        task = self._ray.remote(function).options(num_cpus=1, max_retries=RETRIES)
-        reference = task.remote(*arguments)
+        reference = self._called.options(num_cpus=1, max_retries=RETRIES).remote(function, *arguments)
         self._asked.append(reference)
         found: Future[Any] = Future()
         reference.future().add_done_callback(lambda done: self._hand_on(done, found))
@@ -79,6 +82,11 @@ class ClusterPool:
         """Take back what has not ended."""
         for reference in self._asked:
             self._ray.cancel(reference, force=True)
+
+
+def _called(function: Callable[..., Any], *arguments: Any) -> Any:
+    """Call what Ray itself would not take, too: it refuses functions that are not written in Python."""
+    return function(*arguments)
 
 
 Cluster = Callable[[], AbstractContextManager[ClusterPool]]
@@ -119,9 +127,8 @@ def _connect(ray: Any, address: str | None, processes: int) -> None:
     try:
         if host:  # Ray would wait for minutes
             socket.create_connection((host, int(port)), timeout=PATIENCE).close()
-        ray.init(**where, logging_level=logging.ERROR, log_to_driver=False)
-    except Exception as error:  # Ray raises a bare one where its processes take long to begin
-        ray.shutdown()
+        _init(ray, where, ATTEMPTS)
+    except Exception as error:
         raise InvalidInputError(
             f"Ray cannot begin a cluster on this machine: {error}; try again when it is less busy, or leave "
             "--distributed out"
@@ -129,3 +136,13 @@ def _connect(ray: Any, address: str | None, processes: int) -> None:
             else f"no cluster of Ray answers at {address}: {error}; begin one with `ray start --head`, and give the "
             "address that it prints, or leave the address out"
         ) from error
+
+
+def _init(ray: Any, where: dict[str, Any], attempts: int) -> None:
+    try:
+        ray.init(**where, logging_level=logging.ERROR, log_to_driver=False)
+    except Exception as error:
+        ray.shutdown()
+        if attempts == 1 or type(error) is not Exception:  # Ray's for half a minute that was not enough
+            raise
+        _init(ray, where, attempts - 1)
