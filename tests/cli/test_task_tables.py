@@ -63,6 +63,7 @@ def test_the_readme_names_every_setting():
         "extra_rewards",
         "settings",
         "observation",
+        "privileged",
         "render_mode",
         "record",
     }
