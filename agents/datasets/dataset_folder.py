@@ -1,8 +1,4 @@
-"""What was flown, as Minari datasets: one for each environment, with all its episodes.
-
-Each step's info has `by_person`, whether the person was at the helm: an imitation of them may leave out the rest; and
-`pushed`, whether they pulled the vehicle by hand: what it did then does not follow from its action alone.
-"""
+"""A folder of Minari datasets, each with the episodes that were flown in one environment."""
 
 from __future__ import annotations
 
@@ -11,9 +7,9 @@ import re
 import tempfile
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import gymnasium as gym
 import numpy as np
@@ -28,11 +24,9 @@ PURPOSE, EXTRA = "recording flights", "interop"
 FOLDER_VARIABLE = "MINARI_DATASETS_PATH"
 """Where Minari looks for the folder of its datasets."""
 
-BY_PERSON, PUSHED = "by_person", "pushed"
 
-
-class Recorder(AbstractContextManager["Recorder"]):
-    """Keeps what is flown in a folder of Minari datasets.
+class DatasetFolder:
+    """Keeps what is flown; a dataset is in the folder once it is whole.
 
     Attributes:
         written: how many episodes each dataset has, by its id.
@@ -47,45 +41,45 @@ class Recorder(AbstractContextManager["Recorder"]):
         """
         self._minari, *_ = (optional_library(PURPOSE, name, EXTRA) for name in ("minari", "h5py", "jax"))
         self.written: dict[str, int] = {}
-        self._folder = folder
+        self._folder = folder.absolute()  # Minari would look for a relative one inside of itself
         try:
-            folder.mkdir(parents=True, exist_ok=True)
-            self._begun = tempfile.TemporaryDirectory(dir=folder, prefix=".recording-")
+            self._folder.mkdir(parents=True, exist_ok=True)
+            self._begun = tempfile.TemporaryDirectory(dir=self._folder, prefix=".recording-")
         except OSError as error:
             raise unwritable(folder, error) from error
 
-    def recording(
-        self, env: gym.Env[Any, Any], by_person: Callable[[], bool], pushed: Callable[[], bool]
-    ) -> gym.Env[Any, Any]:
+    def recording(self, env: gym.Env[Any, Any], notes: Callable[[bool], dict[str, Any]]) -> gym.Env[Any, Any]:
         """Return an environment around one of this package that keeps what is flown in it.
 
         Args:
             env: whose episodes are kept.
-            by_person: whether a person flies it now.
-            pushed: whether a person pulled it by hand in the last step.
+            notes: what joins the `info` of the last step or, where its argument is false, of a reset.
         """
         with self._datasets_in(self._begun.name):
             collector: gym.Env[Any, Any] = self._minari.DataCollector(
-                env, step_data_callback=lambda: StepData(by_person, pushed), record_infos=True
+                env, step_data_callback=lambda: StepData(notes), record_infos=True
             )
         return collector
 
-    def keep(self, recorded: gym.Env[Any, Any]) -> None:
+    def keep(
+        self, recorded: gym.Env[Any, Any], *, agent: str | None, algorithm: str, description: str
+    ) -> None:
         """Write the episodes of an environment that `recording` returned, if any, as one dataset.
+
+        Args:
+            recorded: what `recording` returned.
+            agent: the last part of the dataset's name; None leaves it out.
+            algorithm: for the dataset's own account of itself, as is the next.
+            description: for people.
 
         Raises:
             InvalidInputError: it cannot be written.
         """
-        identifier = self._free_identifier(recorded)
+        identifier = self._free_identifier(recorded, agent)
         try:
             with self._datasets_in(self._begun.name):
                 dataset = recorded.create_dataset(  # type: ignore[attr-defined]
-                    identifier,
-                    algorithm_name="flown in the live page",
-                    description=(
-                        f"flown in the live page of dq-marine; {BY_PERSON} tells who was at the helm, {PUSHED} in "
-                        "which steps the vehicle was pulled by hand"
-                    ),
+                    identifier, algorithm_name=algorithm, description=description
                 )
             if dataset.total_episodes:
                 self._move(identifier)
@@ -93,15 +87,20 @@ class Recorder(AbstractContextManager["Recorder"]):
         except OSError as error:
             raise unwritable(self._folder, error) from error
 
+    def __enter__(self) -> Self:
+        """Return the folder."""
+        return self
+
     def __exit__(self, *_: object) -> None:
         """Remove what was begun and not kept."""
         self._begun.cleanup()
 
-    def _free_identifier(self, recorded: gym.Env[Any, Any]) -> str:
-        """Return an id of task and vehicle, in the first version that the folder does not have."""
+    def _free_identifier(self, recorded: gym.Env[Any, Any], agent: str | None) -> str:
+        """Return an id of task, vehicle and agent, in the first version that the folder does not have."""
         inner = marine(recorded)
         task, vehicle = inner.definition.id.rpartition("-v")[0], inner.vehicle.name.replace("/", "-")
-        name, version = re.sub(r"[^-/\w]+", "-", f"{task}/{vehicle}"), 0
+        last = "" if agent is None else "/" + agent.replace("/", "-")
+        name, version = re.sub(r"[^-/\w]+", "-", f"{task}/{vehicle}{last}"), 0
         while (self._folder / f"{name}-v{version}").exists():
             version += 1
         return f"{name}-v{version}"
@@ -133,9 +132,9 @@ class Recorder(AbstractContextManager["Recorder"]):
 class StepData:
     """Says what is kept of a step, as Minari's `StepDataCallback` does."""
 
-    def __init__(self, by_person: Callable[[], bool], pushed: Callable[[], bool]) -> None:
-        """Take what tells whether a person flies, and whether they pulled the vehicle in the last step."""
-        self._by_person, self._pushed = by_person, pushed
+    def __init__(self, notes: Callable[[bool], dict[str, Any]]) -> None:
+        """Take what joins the info of a step or, where its argument is false, of a reset."""
+        self._notes = notes
 
     def __call__(
         self,
@@ -147,13 +146,12 @@ class StepData:
         terminated: bool | None = None,
         truncated: bool | None = None,
     ) -> dict[str, Any]:
-        """Return a step's data: the action as it was held, who gave it, and whether the vehicle was pushed besides."""
-        pushed = action is not None and self._pushed()  # a reset is no step
+        """Return a step's data: the action as it was held, and the info with its notes."""
         return {
             "action": None if action is None else np.clip(action, -1.0, 1.0),
             "observation": obs,
             "reward": rew,
             "terminated": terminated,
             "truncated": truncated,
-            "info": {**info, BY_PERSON: self._by_person(), PUSHED: pushed},
+            "info": info | self._notes(action is not None),
         }

@@ -108,7 +108,7 @@ class _Session:
     def _keep_and_close(self, env: gym.Env[Any, Any]) -> None:
         try:
             if self._recorder is not None:
-                self._recorder.keep(env)
+                self._recorder.keep_flown(env)
         finally:
             env.close()
 
@@ -116,7 +116,7 @@ class _Session:
         self._flight = flight
         self.env: gym.Env[Any, Any] = flight.env
         if self._recorder is not None:
-            self.env = self._recorder.recording(
+            self.env = self._recorder.recording_of(
                 flight.env,
                 lambda: self._conductor.flown_by == HELM,
                 lambda: self._conductor.pushed[-1],

@@ -19,6 +19,7 @@ from dq_marine.cli import (
     export,
     fly,
     leaderboard,
+    record,
     report,
     scenarios,
     sea,
@@ -64,6 +65,7 @@ app.command(epilog=fly.EXAMPLES)(fly.fly)
 app.command(epilog=evaluate.EXAMPLES)(evaluate.evaluate)
 app.command(epilog=compare.EXAMPLES)(compare.compare)
 app.command(epilog=leaderboard.EXAMPLES)(leaderboard.leaderboard)
+app.command(epilog=record.EXAMPLES)(record.record)
 app.command(epilog=train.EXAMPLES)(train.train)
 app.command(epilog=tune.EXAMPLES)(tune.tune)
 app.command(epilog=export.EXAMPLES)(export.export)

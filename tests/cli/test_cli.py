@@ -23,6 +23,7 @@ COMMANDS = [
     ["export"],
     ["share"],
     ["leaderboard"],
+    ["record"],
     ["report"],
     ["sea"],
     ["manoeuvre"],

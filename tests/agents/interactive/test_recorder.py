@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from support.command_line import assert_refused, run
 
-from dq_marine.agents.interactive.recording import BY_PERSON, PUSHED, Recorder, StepData
+from dq_marine.agents.datasets.dataset_folder import StepData
+from dq_marine.agents.interactive.recording import BY_PERSON, PUSHED, Recorder, noted
 from dq_marine.errors import InvalidInputError, MissingDependencyError
 
 
@@ -40,7 +41,7 @@ def test_a_flight_without_a_panel_has_nothing_to_record(tmp_path: Path) -> None:
 
 def test_a_step_is_kept_as_it_was_held_with_who_gave_it_and_whether_it_was_pushed() -> None:
     at_helm = pushed = True
-    step: Any = StepData(lambda: at_helm, lambda: pushed)
+    step: Any = StepData(noted(lambda: at_helm, lambda: pushed))
     begun = step(None, obs=np.zeros(2), info={"a": 1.0})
     assert begun["action"] is None
     assert begun["info"] == {"a": 1.0, BY_PERSON: True, PUSHED: False}
