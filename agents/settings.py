@@ -168,11 +168,20 @@ class NetworkSettings(Settings):
 
 
 class NormalisationSettings(Settings):
-    """Running normalisation: of what, and the magnitude that normalised numbers are cut at."""
+    """Running normalisation: of what, and the magnitude that normalised numbers are cut at.
+
+    Attributes:
+        observation: whether observations are normalised.
+        reward: whether rewards are.
+        clip: the magnitude.
+        symlog: whether of observations sign(x) ln(1 + |x|) is taken before, so that what lies a hundred metres off and
+            what lies one metre off are both told apart.
+    """
 
     observation: bool
     reward: bool
     clip: Positive
+    symlog: bool = False
 
 
 class EvaluationSettings(Settings):
@@ -192,6 +201,8 @@ class ImitationSettings(Settings):
         epochs: how often what it flew is learned from.
         batch_size: of control periods.
         learning_rate: of this beginning.
+        rounds: thereafter, in each of which the policy flies as many episodes itself, and learns what the teacher would
+            have done there.
     """
 
     teacher: Literal["controller", "lqr", "mpc"] = "controller"
@@ -200,6 +211,7 @@ class ImitationSettings(Settings):
     epochs: Count = 20
     batch_size: Count = 256
     learning_rate: Positive = 1e-3
+    rounds: Annotated[int, Field(ge=0, le=100)] = 0
 
 
 class CurriculumSettings(Settings):

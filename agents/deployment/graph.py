@@ -12,6 +12,7 @@ import numpy as np
 
 from dq_marine.agents.training.algorithms import Model
 from dq_marine.agents.training.public_part import public_space
+from dq_marine.agents.training.symlog import SymlogNormalize
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
 
@@ -77,6 +78,7 @@ class _Normalised(nn.Module):
     def __init__(self, normalisation: VecNormalize, name: str, in_parts: bool) -> None:
         super().__init__()
         self._clip = float(normalisation.clip_obs)
+        self._symlog = isinstance(normalisation, SymlogNormalize)
         self._active = bool(normalisation.norm_obs)
         if in_parts and normalisation.norm_obs_keys is not None:
             self._active = self._active and name in normalisation.norm_obs_keys
@@ -90,7 +92,10 @@ class _Normalised(nn.Module):
     def forward(self, raw: Tensor) -> Tensor:
         if not self._active:
             return raw
-        return torch.clamp((raw.double() - self._mean) / self._deviation, -self._clip, self._clip).float()
+        told = raw.double()
+        if self._symlog:
+            told = torch.sign(told) * torch.log1p(torch.abs(told))
+        return torch.clamp((told - self._mean) / self._deviation, -self._clip, self._clip).float()
 
 
 class _PPODecision(nn.Module):

@@ -2,8 +2,9 @@
 
 Behaviour cloning (Pomerleau 1991, Neural Computation 3(1)): the policy's mean is fitted to what the teacher would do.
 The teacher's actions are disturbed while it flies, so that the pupil sees how one comes back from where the teacher by
-itself would never be (Laskey et al. 2017, DART, CoRL). A critic that knew nothing would lead the first updates away
-from what was copied, so it is fitted to the discounted returns.
+itself would never be (Laskey et al. 2017, DART, CoRL). Where the pupil still goes astray, it flies itself in further
+rounds, and learns what the teacher would have done there (Ross et al. 2011, DAgger, AISTATS). A critic that knew
+nothing would lead the first updates away from what was copied, so it is fitted to the discounted returns.
 """
 
 from __future__ import annotations
@@ -12,10 +13,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import gymnasium as gym
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.agents.controllers.baselines import make_baseline
+from dq_marine.agents.controllers.baselines import Agent, make_baseline
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.settings import ImitationSettings, TrainingSettings
 from dq_marine.agents.training.algorithms import Model
@@ -56,6 +58,15 @@ class Lessons:
     returns: NDArray[np.float64]
     running: NDArray[np.float64]
 
+    def and_also(self, others: Lessons) -> Lessons:
+        """Return these and others, one after the other."""
+        return Lessons(
+            _both(self.observations, others.observations),
+            np.concatenate([self.actions, others.actions]),
+            np.concatenate([self.returns, others.returns]),
+            np.concatenate([self.running, others.running]),
+        )
+
 
 def imitate(model: Model, settings: TrainingSettings, seed: int) -> float:
     """Let a model that has learned nothing begin as the copy of a baseline.
@@ -74,13 +85,32 @@ def imitate(model: Model, settings: TrainingSettings, seed: int) -> float:
     policy, envs, imitation = model.policy, model.get_vec_normalize_env(), settings.imitation
     if not isinstance(policy, ActorCriticPolicy) or envs is None or imitation is None:
         raise InvalidInputError(f"{settings.algorithm.name} cannot begin as a copy; train with ppo")
-    lessons = taught(settings, imitation, np.random.default_rng([seed, TEACHING_SEED]))
+    flying = np.random.default_rng([seed, TEACHING_SEED])
+    learning = np.random.default_rng([seed, TEACHING_SEED + 1])
+    lessons = taught(settings, imitation, flying)
     _take_statistics(envs, lessons)
+    difference = _learn(policy, envs, lessons, imitation, learning)
+    for number in range(1, imitation.rounds + 1):
+        first = TEACHING_SEED + number * imitation.episodes
+        further = taught(settings, imitation, flying, pupil=Pupil(policy, envs), first=first)
+        _take_statistics(envs, further)
+        lessons = lessons.and_also(further)
+        difference = _learn(policy, envs, lessons, imitation, learning)
+    return difference
+
+
+def _learn(
+    policy: ActorCriticPolicy,
+    envs: VecNormalize,
+    lessons: Lessons,
+    imitation: ImitationSettings,
+    random: np.random.Generator,
+) -> float:
+    """Fit the policy to the actions and the critic to the returns; return how far actions held back are missed."""
     observations, _ = policy.obs_to_tensor(envs.normalize_obs(lessons.observations))
     actions = torch.as_tensor(lessons.actions)
     scale = np.sqrt(envs.ret_rms.var + envs.epsilon) if envs.norm_reward else 1.0
     returns = torch.as_tensor(np.asarray(lessons.returns / scale, dtype=np.float32))
-    random = np.random.default_rng([seed, TEACHING_SEED + 1])
     held_back, learned = np.split(random.permutation(len(actions)), [max(1, round(HELD_BACK * len(actions)))])
     optimiser = torch.optim.Adam(policy.parameters(), lr=imitation.learning_rate)
     policy.set_training_mode(True)
@@ -99,8 +129,38 @@ def imitate(model: Model, settings: TrainingSettings, seed: int) -> float:
         return float(torch.nn.functional.mse_loss(mean, actions[held_back]))
 
 
-def taught(settings: TrainingSettings, imitation: ImitationSettings, random: np.random.Generator) -> Lessons:
-    """Let the teacher fly, disturbed, and return what it would have done.
+class Pupil:
+    """What the policy does by now, as an agent."""
+
+    def __init__(self, policy: ActorCriticPolicy, envs: VecNormalize) -> None:
+        """Take the policy and the environments that normalise what it sees."""
+        self._policy, self._envs = policy, envs
+
+    def reset(self, env: gym.Env[Any, Any]) -> None:
+        """Do nothing: it remembers nothing."""
+
+    def act(self, observation: Any) -> NDArray[np.float32]:
+        """Return its most likely action."""
+        action, _ = self._policy.predict(self._envs.normalize_obs(observation), deterministic=True)
+        return np.asarray(action, dtype=np.float32)
+
+
+def taught(
+    settings: TrainingSettings,
+    imitation: ImitationSettings,
+    random: np.random.Generator,
+    *,
+    pupil: Agent | None = None,
+    first: int = TEACHING_SEED,
+) -> Lessons:
+    """Return what the teacher would have done where it or its pupil flew, disturbed.
+
+    Args:
+        settings: of the training.
+        imitation: how it begins.
+        random: draws what actions are disturbed by.
+        pupil: who flies; None lets the teacher fly.
+        first: seed of the first episode; the others count up from it.
 
     Raises:
         InvalidInputError: the teacher cannot fly in this environment.
@@ -113,14 +173,15 @@ def taught(settings: TrainingSettings, imitation: ImitationSettings, random: np.
     returns: list[NDArray[np.float64]] = []
     running: list[NDArray[np.float64]] = []
     for episode in range(imitation.episodes):
-        observation, _ = env.reset(seed=TEACHING_SEED + episode)
+        observation, _ = env.reset(seed=first + episode)
         teacher.reset(env)
         rewards, terminated, truncated = [], False, False
         while not (terminated or truncated):
             action = np.clip(teacher.act(observation), -1.0, 1.0)
             observations.append(observation)
             actions.append(action)
-            disturbed = np.clip(action + imitation.noise * random.standard_normal(action.shape), -1.0, 1.0)
+            flown = action if pupil is None else pupil.act(observation)
+            disturbed = np.clip(flown + imitation.noise * random.standard_normal(action.shape), -1.0, 1.0)
             observation, reward, terminated, truncated, _ = env.step(disturbed.astype(np.float32))
             rewards.append(float(reward))
         returns.append(_returns(rewards, gamma, whole=terminated))
@@ -156,6 +217,12 @@ def _stacked(observations: list[Any]) -> Observations:
     if isinstance(observations[0], Mapping):
         return {name: np.array([one[name] for one in observations]) for name in observations[0]}
     return np.array(observations)
+
+
+def _both(these: Any, those: Any) -> Observations:
+    if isinstance(these, dict):
+        return {name: np.concatenate([values, those[name]]) for name, values in these.items()}
+    return np.concatenate([these, those])
 
 
 def _take_statistics(envs: VecNormalize, lessons: Lessons) -> None:

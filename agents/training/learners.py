@@ -24,6 +24,7 @@ from dq_marine.agents.training.algorithms import (
 )
 from dq_marine.agents.training.reward_sums import RewardSums
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
+from dq_marine.agents.training.symlog import SymlogNormalize
 from dq_marine.agents.training.vec_env import MarineVecEnv
 from dq_marine.checks import shown
 from dq_marine.envs.vector.vector_env import MarineVectorEnv
@@ -41,7 +42,7 @@ DEVICE = "cpu"
 def make_training_envs(settings: TrainingSettings) -> VecNormalize:
     """Return the environments to learn in, normalised with running statistics; a model seeds env i with seed + i."""
     normalisation = settings.normalisation
-    return VecNormalize(
+    return _normalised_by(settings)(
         _environments(settings, settings.envs),
         norm_obs=normalisation.observation,
         norm_reward=normalisation.reward,
@@ -53,13 +54,17 @@ def make_training_envs(settings: TrainingSettings) -> VecNormalize:
 
 def make_evaluation_envs(settings: TrainingSettings) -> VecNormalize:
     """Return environments to evaluate in, one for each episode; their normalisation follows the training's."""
-    return VecNormalize(
+    return _normalised_by(settings)(
         _environments(settings, settings.evaluation.episodes),
         training=False,
         norm_obs=settings.normalisation.observation,
         norm_reward=False,
         clip_obs=settings.normalisation.clip,
     )
+
+
+def _normalised_by(settings: TrainingSettings) -> type[VecNormalize]:
+    return SymlogNormalize if settings.normalisation.symlog else VecNormalize
 
 
 def make_model(settings: TrainingSettings, seed: int, tensorboard: Path) -> Model:

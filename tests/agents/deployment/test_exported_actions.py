@@ -18,6 +18,7 @@ from dq_marine.agents.deployment.description import METADATA_KEY
 from dq_marine.agents.deployment.formats import onnx_bytes, torchscript_bytes
 from dq_marine.agents.deployment.graph import PolicyGraph
 from dq_marine.agents.deployment.onnx_policy import OnnxPolicy
+from dq_marine.agents.training.symlog import SymlogNormalize
 from dq_marine.agents.training.trained_policy import TrainedPolicy
 from dq_marine.errors import InvalidInputError
 
@@ -81,15 +82,21 @@ KINDS = [(kind, gain, goals) for kind, gain in GAINS.items() for goals in (False
 KINDS.remove((CrossQ, GAINS[CrossQ], True))  # which has no policy for goals
 
 
-@pytest.mark.parametrize("normalised", sweep([False, True], plain=[True]))
+@pytest.mark.parametrize(
+    ("normaliser", "normalised"),
+    sweep(
+        [(VecNormalize, False), (VecNormalize, True), (SymlogNormalize, True)],
+        plain=[(SymlogNormalize, True)],
+    ),
+)
 @pytest.mark.parametrize(
     ("kind", "gain", "goals"), sweep(KINDS, plain=[(PPO, 500.0, True), (SAC, 60.0, True)])
 )
 def test_goals_limits_and_raw_observations(
-    normalised: bool, kind: Any, gain: float, goals: bool, ppo: Any
+    normaliser: Any, normalised: bool, kind: Any, gain: float, goals: bool, ppo: Any
 ) -> None:
     rng = np.random.default_rng(1)
-    envs = VecNormalize(DummyVecEnv([lambda: Somewhere(goals)]), norm_obs=normalised, clip_obs=5.0)
+    envs = normaliser(DummyVecEnv([lambda: Somewhere(goals)]), norm_obs=normalised, clip_obs=5.0)
     policy = "MultiInputPolicy" if goals else "MlpPolicy"
     model = kind(policy, envs, seed=0, device="cpu", policy_kwargs={"net_arch": [64, 64]})
     last = model.policy.action_net if kind is PPO else model.policy.actor.mu

@@ -11,9 +11,11 @@ import torch
 from rich.console import Console
 from support.trainings import tiny
 
+from dq_marine.agents.controllers.baselines import ZeroAgent, make_baseline
+from dq_marine.agents.environments import make_environment
 from dq_marine.agents.settings import ImitationSettings, NetworkSettings, TrainingSettings
 from dq_marine.agents.training import imitation
-from dq_marine.agents.training.imitation import imitate, taught
+from dq_marine.agents.training.imitation import Pupil, imitate, taught
 from dq_marine.agents.training.learners import environments_of, make_model
 from dq_marine.agents.training.run_folder import RunFolder
 from dq_marine.agents.training.training import begin_training
@@ -70,6 +72,41 @@ def test_returns_are_discounted_sums_of_what_follows(whole: bool) -> None:
     known = 40 if whole else 25  # 3/(1 - 0.8) periods before the end are not known
     assert returns[:known] == pytest.approx(expected[:known], abs=1e-12)
     assert np.isnan(returns[known:]).all()
+
+
+def test_where_the_pupil_flies_it_is_told_what_the_teacher_would_do(tmp_path: Path) -> None:
+    settings = learning(tmp_path)
+    own = BRIEF.model_copy(update={"episodes": 2, "noise": 0.0})
+    lessons = taught(settings, own, np.random.default_rng(0), pupil=ZeroAgent(6), first=70)
+    env = make_environment(settings.environment)
+    teacher = make_baseline("controller", env, 0)
+    row = 0
+    for seed in (70, 71):
+        observation, _ = env.reset(seed=seed)
+        teacher.reset(env)
+        over = False
+        while not over:
+            np.testing.assert_array_equal(lessons.observations[row], observation)
+            np.testing.assert_array_equal(lessons.actions[row], np.clip(teacher.act(observation), -1.0, 1.0))
+            observation, _, terminated, truncated, _ = env.step(np.zeros(6, np.float32))
+            over, row = terminated or truncated, row + 1
+    assert row == len(lessons.actions)
+
+
+def test_further_rounds_make_the_copy_alike_where_it_flies_itself(tmp_path: Path) -> None:
+    missed = {}
+    for rounds in (0, 3):
+        own = BRIEF.model_copy(update={"episodes": 8, "epochs": 30, "rounds": rounds})
+        settings = learning(tmp_path, own)
+        model = make_model(settings, 3, tmp_path)
+        imitate(model, settings, 3)
+        pupil = Pupil(model.policy, model.get_vec_normalize_env())
+        flown = own.model_copy(update={"episodes": 20, "noise": 0.0})
+        lessons = taught(settings, flown, np.random.default_rng(0), pupil=pupil, first=10_000)
+        acted = np.array([pupil.act(one) for one in lessons.observations])
+        missed[rounds] = float(np.mean(np.square(acted - lessons.actions)))
+        environments_of(model).close()
+    assert missed[3] < 0.7 * missed[0]
 
 
 @pytest.mark.sweep
