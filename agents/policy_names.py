@@ -1,4 +1,6 @@
-"""Trained policies that come with the package, at most one for each task and called by the task's name.
+"""Trained policies that come with the package: at most one for each task and vehicle, called by the task's name.
+
+One for another vehicle than the task's own has the vehicle's name behind it, as in PathFollowing_otter.
 
 The preset of the same name says how a policy was trained; the card beside its file says with which vehicle, and how
 well it flies.

@@ -236,7 +236,7 @@ class TrainingSettings(Settings):
         envs: environments stepped in turn.
         torch_threads: processor threads that torch may use.
         checkpoint_every: timesteps between checkpoints.
-        environment: what to learn in.
+        environment: what to learn for.
         algorithm: what to learn with.
         network: what to learn.
         normalisation: of observations and rewards.
@@ -245,6 +245,8 @@ class TrainingSettings(Settings):
         curriculum: levels that are learned first; None for the environment's own from the start.
         privileged_critic: what the critic sees of what only the simulator knows: the current, in what the vehicle is
             not the nominal one, the truth behind sensors and delays. The policy that is learned does not.
+        while_learning: keywords of the environment that hold while it is learned in, such as a larger distance to keep
+            than the policy will have to; evaluations are in the environment as it is.
     """
 
     timesteps: Count
@@ -259,11 +261,19 @@ class TrainingSettings(Settings):
     imitation: ImitationSettings | None = None
     curriculum: CurriculumSettings | None = None
     privileged_critic: tuple[Literal["current", "vehicle", "truth"], ...] = ()
+    while_learning: dict[str, Any] = Field(default_factory=dict)
 
     @property
     def learned_in(self) -> EnvironmentSettings:
-        """The environment, with what only the critic sees."""
-        keywords = self.environment.keywords
+        """The environment as it is learned in, with what only the critic sees."""
+        return self._shown_to_critic({**self.environment.keywords, **self.while_learning})
+
+    @property
+    def evaluated_in(self) -> EnvironmentSettings:
+        """The environment as it is, with what only the critic sees."""
+        return self._shown_to_critic(self.environment.keywords)
+
+    def _shown_to_critic(self, keywords: dict[str, Any]) -> EnvironmentSettings:
         if self.privileged_critic:
             keywords = {**keywords, PRIVILEGED_KEYWORD: list(self.privileged_critic)}
         return EnvironmentSettings(id=self.environment.id, keywords=keywords)
@@ -296,9 +306,9 @@ class TrainingSettings(Settings):
                 "takes no observations in parts; train with ppo, recurrent_ppo, sac, td3 or tqc, or leave "
                 "privileged_critic out"
             )
-        if PRIVILEGED_KEYWORD in self.environment.keywords:
+        if PRIVILEGED_KEYWORD in {**self.environment.keywords, **self.while_learning}:
             raise ValueError(
-                f"environment.keywords.{PRIVILEGED_KEYWORD} would show the policy what no sensor tells; set "
+                f"the environment's keyword {PRIVILEGED_KEYWORD} would show the policy what no sensor tells; set "
                 "privileged_critic, which shows it to the critic alone"
             )
         return self

@@ -8,7 +8,7 @@ import gymnasium as gym
 
 from dq_marine.agents.controllers.baselines import make_baseline
 from dq_marine.agents.environments import make_environment, marine
-from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
 from dq_marine.agents.training.lessons import lessons_of
 from dq_marine.envs.core.privileged import HIDDEN_BY, hidden_parts
 from dq_marine.errors import InvalidInputError
@@ -23,7 +23,7 @@ def check_can_begin(settings: TrainingSettings) -> None:
             hidden and is not.
         MissingDependencyError: a library that the teacher needs is not installed.
     """
-    found = [_checked(lesson) for lesson in lessons_of(settings)]
+    found = [_checked(lesson, lesson.learned_in) for lesson in lessons_of(settings)]
     for level, one in zip(settings.curriculum.levels if settings.curriculum else (), found, strict=False):
         if one.spaces != found[-1].spaces:
             raise InvalidInputError(
@@ -31,6 +31,11 @@ def check_can_begin(settings: TrainingSettings) -> None:
                 "the environment itself: no policy can learn both; leave the level out, or give the keyword that "
                 "makes the difference"
             )
+    if settings.while_learning and _checked(settings, settings.evaluated_in).spaces != found[-1].spaces:
+        raise InvalidInputError(
+            f"while_learning = {settings.while_learning} changes the observations or actions, or their bounds: the "
+            "policy could not fly in the environment that it is for; give keywords that leave them as they are"
+        )
     for name in settings.privileged_critic:
         if name not in found[-1].hidden:
             raise InvalidInputError(
@@ -51,9 +56,9 @@ class _Found(NamedTuple):
     hidden: tuple[str, ...]
 
 
-def _checked(settings: TrainingSettings) -> _Found:
+def _checked(settings: TrainingSettings, environment: EnvironmentSettings) -> _Found:
     """Return what an environment is like in which the teacher can fly."""
-    env = make_environment(settings.learned_in)
+    env = make_environment(environment)
     try:
         if settings.imitation is not None:
             make_baseline(settings.imitation.teacher, env)

@@ -13,7 +13,7 @@ from typing import Any
 import gymnasium as gym
 
 from dq_marine.agents.environments import make_environments
-from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
 from dq_marine.agents.training.algorithms import (
     LinearSchedule,  # noqa: F401 - models of earlier runs hold it by its name here
     Model,
@@ -43,7 +43,7 @@ def make_training_envs(settings: TrainingSettings) -> VecNormalize:
     """Return the environments to learn in, normalised with running statistics; a model seeds env i with seed + i."""
     normalisation = settings.normalisation
     return _normalised_by(settings)(
-        _environments(settings, settings.envs),
+        _environments(settings.learned_in, settings.envs),
         norm_obs=normalisation.observation,
         norm_reward=normalisation.reward,
         clip_obs=normalisation.clip,
@@ -55,7 +55,7 @@ def make_training_envs(settings: TrainingSettings) -> VecNormalize:
 def make_evaluation_envs(settings: TrainingSettings) -> VecNormalize:
     """Return environments to evaluate in, one for each episode; their normalisation follows the training's."""
     return _normalised_by(settings)(
-        _environments(settings, settings.evaluation.episodes),
+        _environments(settings.evaluated_in, settings.evaluation.episodes),
         training=False,
         norm_obs=settings.normalisation.observation,
         norm_reward=False,
@@ -149,6 +149,6 @@ def refusing_damage(folder: Path) -> Iterator[None]:
         ) from error
 
 
-def _environments(settings: TrainingSettings, count: int) -> VecMonitor:
+def _environments(settings: EnvironmentSettings, count: int) -> VecMonitor:
     """Return environments that are stepped together and report their episodes."""
-    return VecMonitor(MarineVecEnv(RewardSums(make_environments(settings.learned_in, count))))
+    return VecMonitor(MarineVecEnv(RewardSums(make_environments(settings, count))))

@@ -230,7 +230,8 @@ def fly_entry(entry: Entry, plan: Plan, policy: Policy | None = None) -> Result:
     if entry.scenario:
         scenario = load_scenario(f"{entry.task}/{entry.scenario}")
         plan, options = Plan(1, scenario.seed), dict(scenario.reset)
-    env = make_environment(environment_of(entry))
+    environment = environment_of(entry)
+    env = make_environment(environment if policy is None else policy.flown_in(environment))
     baselines, runs = ([entry.agent], []) if policy is None else ([], [policy.path])
     agents = make_agents(baselines, runs, env, seed=plan.seed)
     flown: list[dict[str, float]] = []

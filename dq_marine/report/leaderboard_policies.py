@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from dq_marine.agents.controllers.baselines import AGENTS
-from dq_marine.agents.environments import make_environment, marine
+from dq_marine.agents.environments import make_environment, marine, with_keywords
 from dq_marine.agents.policies import named_policies, policy_digest, trained_environment
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.checks import shown
@@ -48,9 +48,14 @@ class Policy:
         """What it observes and what it commands."""
         return _interface(self.environment)
 
+    def flown_in(self, environment: EnvironmentSettings) -> EnvironmentSettings:
+        """Return an environment with the actuation of the policy's training, unless it has one of its own."""
+        own = None if "actuation" in environment.keywords else self.environment.keywords.get("actuation")
+        return with_keywords(environment, actuation=own)
+
     def fits(self, environment: EnvironmentSettings) -> bool:
         """Whether an environment is of its task, and shows and takes the same numbers as that of its training."""
-        return environment.id == self.task and _interface(environment) == self.interface
+        return environment.id == self.task and _interface(self.flown_in(environment)) == self.interface
 
 
 def _interface(environment: EnvironmentSettings) -> Any:

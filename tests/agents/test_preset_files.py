@@ -28,10 +28,13 @@ def edited(tmp_path: Path, preset: str, old: str, new: str) -> Path:
 
 def test_shipped_presets_are_valid() -> None:
     assert preset_names() == [
+        "Berthing",
         "DepthHeading",
         "Docking",
+        "DynamicPositioning",
         "ObstacleAvoidance",
         "PathFollowing",
+        "PathFollowing_otter",
         "PipelineInspection",
         "StationKeeping",
         "TrajectoryTracking",
@@ -131,9 +134,10 @@ def test_what_a_preset_cannot_be_based_on(
 def test_what_is_no_preset(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInputError,
-        match="no preset or file 'ddpg'; the presets are DepthHeading, Docking, ObstacleAvoidance, PathFollowing, "
-        "PipelineInspection, StationKeeping, TrajectoryTracking, WaypointTracking, autopilot, avoidance, crossq, "
-        "dp_controller, over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
+        match="no preset or file 'ddpg'; the presets are Berthing, DepthHeading, Docking, DynamicPositioning, "
+        "ObstacleAvoidance, PathFollowing, PathFollowing_otter, PipelineInspection, StationKeeping, "
+        "TrajectoryTracking, WaypointTracking, autopilot, avoidance, crossq, dp_controller, over_ground, ppo, "
+        "recurrent_ppo, sac, td3, tqc, trajectory",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"

@@ -35,7 +35,9 @@ def test_each_is_small_and_was_trained_as_its_preset_says(name: str) -> None:
     path, settings = policy_path(name), read_settings(name, TrainingSettings)
     assert path.stat().st_size <= LARGEST
     assert trained_environment(path) == settings.environment
-    assert settings.environment.id == task_called(settings.environment.id).id == f"dq_marine/{name}-v0"
+    task, _, vehicle = name.partition("_")
+    assert settings.environment.id == task_called(settings.environment.id).id == f"dq_marine/{task}-v0"
+    assert settings.environment.keywords.get("vehicle", "") == vehicle
     card = (path.parent / CARD_FILE).read_text(encoding="utf-8")
     preset = card.split("```toml\n")[1].split("```")[0]
     assert TrainingSettings.model_validate(tomllib.loads(preset)) == settings

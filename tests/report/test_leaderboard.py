@@ -197,6 +197,18 @@ def test_a_policy_flies_what_it_was_trained_for_and_fits():
     )
 
 
+def test_a_policy_commands_what_it_was_trained_to_command_unless_the_environment_says_otherwise():
+    task = "dq_marine/DynamicPositioning-v0"
+    own = EnvironmentSettings(id=task, keywords={"actuation": "wrench"})
+    policy = Policy("mine", Path("runs/mine"), "0123", own)
+    (mine,) = entries(["DynamicPositioning"], [], ["medium"], [], [policy])
+    assert mine == Entry(task, "osv83", "medium", "mine")
+    assert policy.flown_in(environment_of(mine)).keywords["actuation"] == "wrench"
+    thrusters = EnvironmentSettings(id=task, keywords={"actuation": "thrusters"})
+    assert policy.flown_in(thrusters) == thrusters
+    assert not policy.fits(thrusters)
+
+
 def test_results_of_another_model_of_a_policy_are_flown_again(tmp_path):
     kept, entry = Kept(tmp_path / "board.json", PLAN), ENTRY._replace(agent="mine")
     old = Result(entry, 1, 3, {}, {"effort": Interval(0.0, 0.0, 0.0)}, policy="old")
