@@ -35,6 +35,9 @@ TEACHING_SEED = 3_000_000
 HELD_BACK = 0.1
 """Share of what was flown that is not learned from, but tells how well the rest was."""
 
+SETTLED = 1e15
+"""Number of observations that statistics are said to be of, so that those to come do not change them."""
+
 FORESIGHT = 3.0
 """Of the discounted return of an episode that the time limit cuts off, that from so many times 1/(1 - gamma) before the
 end is whole but for exp(-3) of it: later ones teach the critic nothing."""
@@ -96,6 +99,8 @@ def imitate(model: Model, settings: TrainingSettings, seed: int) -> float:
         _take_statistics(envs, further)
         lessons = lessons.and_also(further)
         difference = _learn(policy, envs, lessons, imitation, learning)
+    if imitation.rounds:
+        _settle_statistics(envs)
     return difference
 
 
@@ -234,6 +239,17 @@ def _take_statistics(envs: VecNormalize, lessons: Lessons) -> None:
             kept[name].update(values)
     if envs.norm_reward:
         envs.ret_rms.update(lessons.running)
+
+
+def _settle_statistics(envs: VecNormalize) -> None:
+    """Let observations be normalised as they are now from here on.
+
+    Further rounds are flown where the pupil went astray, unlike what is to come: means and deviations would drift, and
+    what a policy does with the numbers that it has learned to read would drift with them.
+    """
+    if envs.norm_obs:
+        for running in envs.obs_rms.values() if isinstance(envs.obs_rms, dict) else [envs.obs_rms]:
+            running.count = SETTLED
 
 
 def _batches(

@@ -109,6 +109,21 @@ def test_further_rounds_make_the_copy_alike_where_it_flies_itself(tmp_path: Path
     assert missed[3] < 0.7 * missed[0]
 
 
+@pytest.mark.parametrize(("rounds", "moves"), [(0, True), (1, False)])
+def test_after_further_rounds_the_policy_goes_on_reading_numbers_as_it_learned_to(
+    rounds: int, moves: bool, tmp_path: Path
+) -> None:
+    settings = learning(tmp_path, BRIEF.model_copy(update={"episodes": 1, "epochs": 1, "rounds": rounds}))
+    model = make_model(settings, 3, tmp_path)
+    imitate(model, settings, 3)
+    envs = model.get_vec_normalize_env()
+    far = np.full((1, *model.observation_space.shape), 3.0)
+    before = envs.normalize_obs(far)
+    model.learn(64)
+    assert (np.abs(envs.normalize_obs(far) - before).max() > 1e-6) == moves
+    environments_of(model).close()
+
+
 @pytest.mark.sweep
 def test_a_run_says_how_like_the_teacher_it_begins(tmp_path: Path) -> None:
     console = Console(file=io.StringIO(), width=200)
