@@ -1,9 +1,11 @@
 """What agents fly is read back from Minari's datasets, and flown again from them, step by step."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from support.command_line import assert_refused, run
 from support.minari_child import needs_minari, printed_by
 
 from dq_marine.agents.controllers.baselines import ZeroAgent
@@ -82,3 +84,29 @@ def test_noise_is_drawn_anew_in_each_period_and_alike_for_one_seed() -> None:
 def test_noise_that_is_none_is_refused_before_anything_is_flown(noise: float) -> None:
     with pytest.raises(InvalidInputError, match="noise"):
         record_agents(None, {"zero": None}, None, episodes=1, seed=0, noise=noise)
+
+
+COMMAND = """
+import sys
+
+from dq_marine.cli.main import app
+
+app(["record", sys.argv[1], "--set", "max_episode_steps=5", "--episodes", "2", "--noise", "0.1", *sys.argv[2:]])
+"""
+
+
+@needs_minari
+def test_the_command_says_what_it_wrote_and_how_it_is_found(tmp_path: Path) -> None:
+    folder = tmp_path / "flights"
+    said = printed_by(COMMAND, str(folder), "--agent", "zero", "--agent", "random", datasets=str(tmp_path))
+    for name in ("zero", "random"):
+        identifier = f"dq_marine/StationKeeping/BlueROV2-Heavy/{name}-v0"
+        assert f"Wrote {folder}: dataset {identifier}, episodes: 2" in said
+        assert f'With MINARI_DATASETS_PATH={folder}, minari.load_dataset("{identifier}") finds it.' in said
+        assert (folder / identifier).is_dir()
+
+
+def test_the_command_names_the_extra_that_is_missing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "minari", None)
+    assert_refused(run("record", tmp_path / "flights"), r"needs 'minari'.*dq-marine\[interop\]")
+    assert not (tmp_path / "flights").exists()
