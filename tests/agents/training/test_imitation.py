@@ -93,6 +93,7 @@ def test_where_the_pupil_flies_it_is_told_what_the_teacher_would_do(tmp_path: Pa
     assert row == len(lessons.actions)
 
 
+@pytest.mark.sweep
 def test_further_rounds_make_the_copy_alike_where_it_flies_itself(tmp_path: Path) -> None:
     missed = {}
     for rounds in (0, 3):
