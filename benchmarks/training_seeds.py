@@ -37,7 +37,7 @@ from dq_marine.report.machine import cpu_model, load
 from dq_marine.util.files import with_folder, write_json, write_whole
 
 PAGE = circumstances.ROOT / "docs" / "howto" / "shipped_policies.md"
-BEGIN, END = "<!-- benchmarks/training_seeds.py -->\n", "<!-- end -->\n"
+BEGIN, END = "<!-- benchmarks/training_seeds.py: {} -->\n", "<!-- end -->\n"
 UNSEEN = 5_000_000
 """Seed of the first episode: beyond those of trainings and evaluations."""
 
@@ -168,7 +168,7 @@ def other_presets(presets: Sequence[str], seeds: Sequence[int], episodes: int, r
             times = [f"{run[one]:.0f}" for one in ("command_s", "processor_s")]
             rows.append(["", f"seed {seed}", *times, successes(folder / name, folder, episodes)])
     header = ["preset", "policy", "wall time [s]", "processor time [s]", "success"]
-    return f"### The other presets\n\n{table(header, rows)}\n" if rows else ""
+    return f"{table(header, rows)}\n"
 
 
 def section(preset: str, seeds: Sequence[int], episodes: int, runs: Path) -> str:
@@ -197,9 +197,9 @@ def section(preset: str, seeds: Sequence[int], episodes: int, runs: Path) -> str
     return f"### {preset}\n\n{table(header, rows)}\n"
 
 
-def provenance(wanted: argparse.Namespace) -> str:
-    """Return command, machine and versions, as a paragraph."""
-    chosen = [f"--preset {one}" for one in wanted.preset] + [f"--seed {one}" for one in wanted.seed]
+def provenance(wanted: argparse.Namespace, presets: Sequence[str]) -> str:
+    """Return the command for these presets, machine and versions, as a paragraph."""
+    chosen = [f"--preset {one}" for one in presets] + [f"--seed {one}" for one in wanted.seed]
     installed = ", ".join(f"{name} {version}" for name, version in circumstances.versions().items())
     return (
         f"`python benchmarks/training_seeds.py {' '.join(chosen)} --episodes {wanted.episodes}`\n\n"
@@ -220,13 +220,22 @@ def main() -> None:
     wanted = parser.parse_args()
     wanted.preset = wanted.preset or list(shipped_policies())
     wanted.seed = wanted.seed or list(range(5))
+    page = PAGE.read_text(encoding="utf-8")
     bounded = [one for one in wanted.preset if one in BOUNDS]
-    sections = [section(one, wanted.seed, wanted.episodes, wanted.runs) for one in bounded]
+    if bounded:
+        tables = [section(one, wanted.seed, wanted.episodes, wanted.runs) for one in bounded]
+        page = with_tables(page, "bounds", provenance(wanted, bounded), "".join(tables))
     others = [one for one in wanted.preset if one not in BOUNDS]
-    sections.append(other_presets(others, wanted.seed, wanted.episodes, wanted.runs))
-    before, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
-    tables = f"{BEGIN}\n{provenance(wanted)}\n{''.join(sections)}"
-    write_whole(with_folder(wanted.out), before + tables + END + rest.split(END)[1])
+    if others:
+        tables = [other_presets(others, wanted.seed, wanted.episodes, wanted.runs)]
+        page = with_tables(page, "others", provenance(wanted, others), "".join(tables))
+    write_whole(with_folder(wanted.out), page)
+
+
+def with_tables(page: str, block: str, source: str, tables: str) -> str:
+    """Return the page with other tables between the words of a block."""
+    before, rest = page.split(BEGIN.format(block))
+    return f"{before}{BEGIN.format(block)}\n{source}\n{tables}{END}{rest.split(END, 1)[1]}"
 
 
 if __name__ == "__main__":
