@@ -37,6 +37,7 @@ def test_shipped_presets_are_valid() -> None:
         "PathFollowing_otter",
         "PipelineInspection",
         "StationKeeping",
+        "TerrainFollowing",
         "TrajectoryTracking",
         "WaypointTracking",
         "autopilot",
@@ -136,8 +137,8 @@ def test_what_is_no_preset(tmp_path: Path) -> None:
         InvalidInputError,
         match="no preset or file 'ddpg'; the presets are Berthing, DepthHeading, Docking, DynamicPositioning, "
         "ObstacleAvoidance, PathFollowing, PathFollowing_otter, PipelineInspection, StationKeeping, "
-        "TrajectoryTracking, WaypointTracking, autopilot, avoidance, crossq, dp_controller, over_ground, ppo, "
-        "recurrent_ppo, sac, td3, tqc, trajectory",
+        "TerrainFollowing, TrajectoryTracking, WaypointTracking, autopilot, avoidance, crossq, dp_controller, "
+        "over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"
