@@ -55,8 +55,8 @@ class LinearSchedule:
     last: float
 
     def __call__(self, progress_remaining: float) -> float:
-        """Return the rate; `progress_remaining` falls from 1 to 0."""
-        return self.last + (self.first - self.last) * progress_remaining
+        """Return the rate; `progress_remaining` falls from 1 to 0, and below in a last rollout that goes beyond."""
+        return self.last + (self.first - self.last) * max(0.0, progress_remaining)
 
 
 def model_class(name: str) -> type[Model]:

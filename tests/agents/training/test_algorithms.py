@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from rich.console import Console
 from support.trainings import ALGORITHMS, tiny
 
@@ -65,6 +67,15 @@ def test_a_model_is_what_its_settings_say(name: str, tmp_path: Path) -> None:
         "net_arch",
         "activation_fn",
     }
+
+
+@given(st.floats(-5000.0, 1.0))
+def test_the_learning_rate_falls_to_its_last_and_not_below(progress: float) -> None:
+    """SB3 collects whole rollouts: one of 4,096 steps in a training of 1 leaves a progress of -4,095."""
+    rate = LinearSchedule(1e-3, 5e-5)(progress)
+    assert 5e-5 <= rate <= 1e-3 * (1.0 + 1e-12)
+    if progress > 0.0:
+        assert rate == pytest.approx(5e-5 + 9.5e-4 * progress)
 
 
 def test_schedules_of_runs_of_before_are_found_where_they_were() -> None:
