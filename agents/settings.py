@@ -183,6 +183,15 @@ class NormalisationSettings(Settings):
     clip: Positive
     symlog: bool = False
 
+    @model_validator(mode="after")
+    def _symlog_is_normalised(self) -> Self:
+        if self.symlog and not self.observation:
+            raise ValueError(
+                "normalisation.symlog goes before the normalisation of observations, and normalisation.observation = "
+                "false; set it true, or leave symlog out"
+            )
+        return self
+
 
 class EvaluationSettings(Settings):
     """Evaluation while training: after how many steps, over how many episodes."""

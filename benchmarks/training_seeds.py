@@ -89,6 +89,13 @@ def train(preset: str, seed: int, folder: Path) -> dict[str, Any]:
     return summary | json.loads(command_file.read_text(encoding="utf-8"))
 
 
+def trained(preset: str, seed: int, runs: Path) -> tuple[Path, list[str]]:
+    """Return the folder of a run, which is trained if it is not there, and its two times, as the cells of its row."""
+    folder = runs / f"{preset}-{seed}"
+    run = train(preset, seed, folder)
+    return folder, [f"{run[name]:.0f}" for name in ("command_s", "processor_s")]
+
+
 def processor_time() -> float:
     """Return what children that have ended took of the processor [s]."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -163,9 +170,7 @@ def other_presets(presets: Sequence[str], seeds: Sequence[int], episodes: int, r
         shipped = successes(runs / f"{preset}-shipped" / name, policy_path(preset), episodes)
         rows.append([preset, "as it ships", "", "", shipped])
         for seed in seeds:
-            folder = runs / f"{preset}-{seed}"
-            run = train(preset, seed, folder)
-            times = [f"{run[one]:.0f}" for one in ("command_s", "processor_s")]
+            folder, times = trained(preset, seed, runs)
             rows.append(["", f"seed {seed}", *times, successes(folder / name, folder, episodes)])
     header = ["preset", "policy", "wall time [s]", "processor time [s]", "success"]
     return f"{table(header, rows)}\n"
@@ -178,9 +183,7 @@ def section(preset: str, seeds: Sequence[int], episodes: int, runs: Path) -> str
         ["as it ships", "", "", *cells_of(policy_path(preset), bound, episodes, runs / f"{preset}-shipped")]
     ]
     for seed in seeds:
-        folder = runs / f"{preset}-{seed}"
-        run = train(preset, seed, folder)
-        times = [f"{run[name]:.0f}" for name in ("command_s", "processor_s")]
+        folder, times = trained(preset, seed, runs)
         rows.append([f"seed {seed}", *times, *cells_of(folder, bound, episodes, folder)])
     position, angle = bound.errors
     header = [

@@ -12,6 +12,7 @@ from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.datasets.dataset_folder import DatasetFolder
 from dq_marine.agents.evaluation.episodes import Episode
 from dq_marine.agents.evaluation.evaluation import Score, evaluate
+from dq_marine.agents.noise import with_noise
 from dq_marine.checks import finite_number
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
@@ -30,10 +31,8 @@ class Disturbed:
         self._agent.reset(env)
 
     def act(self, observation: Observation) -> Action:
-        """Return the agent's action and what is drawn, within -1 and 1."""
-        action = self._agent.act(observation)
-        drawn = self._noise * self._random.standard_normal(action.shape)
-        return np.clip(action + drawn, -1.0, 1.0).astype(np.float32)
+        """Return the agent's action with its noise."""
+        return with_noise(self._agent.act(observation), self._noise, self._random)
 
 
 def record_agents(

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.baselines import Agent, make_baseline
 from dq_marine.agents.environments import make_environment
+from dq_marine.agents.noise import with_noise
 from dq_marine.agents.settings import ImitationSettings, TrainingSettings
 from dq_marine.agents.training.algorithms import Model
 from dq_marine.errors import InvalidInputError
@@ -186,8 +187,8 @@ def taught(
             observations.append(observation)
             actions.append(action)
             flown = action if pupil is None else pupil.act(observation)
-            disturbed = np.clip(flown + imitation.noise * random.standard_normal(action.shape), -1.0, 1.0)
-            observation, reward, terminated, truncated, _ = env.step(disturbed.astype(np.float32))
+            disturbed = with_noise(flown, imitation.noise, random)
+            observation, reward, terminated, truncated, _ = env.step(disturbed)
             rewards.append(float(reward))
         returns.append(_returns(rewards, gamma, whole=terminated))
         running.append(_discounted(rewards, gamma))

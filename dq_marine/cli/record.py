@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from dq_marine.checks import finite_number
 from dq_marine.cli.common import console, examples, shown_part
 from dq_marine.cli.options import (
     Baseline,
@@ -76,6 +77,7 @@ def record(
     from dq_marine.agents.evaluation.evaluation import score_table
     from dq_marine.cli.agent_options import EnvironmentOptions, requested_environment, requested_policies
 
+    noise = finite_number("--noise", noise, least=0.0)
     runs = [*(run or []), *requested_policies(policy or [])]
     options = EnvironmentOptions(task, vehicle, level, current, tuple(set_ or ()), tuple(perturb or ()))
     env = make_environment(requested_environment(runs, options, preset=preset))

@@ -110,3 +110,8 @@ def test_the_command_names_the_extra_that_is_missing(tmp_path: Path, monkeypatch
     monkeypatch.setitem(sys.modules, "minari", None)
     assert_refused(run("record", tmp_path / "flights"), r"needs 'minari'.*dq-marine\[interop\]")
     assert not (tmp_path / "flights").exists()
+
+
+def test_the_command_refuses_noise_without_end_before_it_makes_a_folder(tmp_path: Path) -> None:
+    assert_refused(run("record", tmp_path / "flights", "--noise", "inf"), "--noise = inf is not finite")
+    assert not (tmp_path / "flights").exists()

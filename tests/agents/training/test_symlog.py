@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from pydantic import ValidationError
 from rich.console import Console
 from stable_baselines3.common.vec_env import DummyVecEnv
 from support.trainings import tiny
@@ -19,6 +20,7 @@ from support.trainings import tiny
 from dq_marine.agents.deployment.export import export_policy
 from dq_marine.agents.deployment.onnx_policy import OnnxPolicy
 from dq_marine.agents.environments import make_environment
+from dq_marine.agents.settings import NormalisationSettings
 from dq_marine.agents.training.run_folder import RunFolder
 from dq_marine.agents.training.symlog import SymlogNormalize, symexp, symlog
 from dq_marine.agents.training.trained_policy import TrainedPolicy
@@ -115,3 +117,9 @@ def test_a_run_is_loaded_and_exported_with_it(tmp_path: Path) -> None:
     for scale in (0.01, 1.0, 100.0):
         seen = np.float32(scale) * observation
         np.testing.assert_allclose(exported.act(seen), own.act(seen), rtol=0.0, atol=1e-6)
+
+
+def test_it_needs_observations_that_are_normalised(tmp_path: Path) -> None:
+    own = tiny(tmp_path, "ppo", 64).normalisation.model_dump()
+    with pytest.raises(ValidationError, match=r"symlog goes before .* set it true, or leave symlog out"):
+        NormalisationSettings.model_validate(own | {"observation": False, "symlog": True})
