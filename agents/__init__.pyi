@@ -7,6 +7,8 @@ from dq_marine.agents.controllers.baselines import make_baseline as make_baselin
 from dq_marine.agents.controllers.dp_controller import DPController as DPController
 from dq_marine.agents.controllers.mpc import MPCController as MPCController
 from dq_marine.agents.controllers.trajectory_control import LQRController as LQRController
+from dq_marine.agents.datasets.dataset_folder import DatasetFolder as DatasetFolder
+from dq_marine.agents.datasets.recorded_agents import record_agents as record_agents
 from dq_marine.agents.deployment.export import export_policy as export_policy
 from dq_marine.agents.deployment.onnx_policy import OnnxPolicy as OnnxPolicy
 from dq_marine.agents.environments import make_environment as make_environment

@@ -1,4 +1,4 @@
-"""Noise in actions: what is flown with it tells what other actions than an agent's own lead to."""
+"""Noise in actions: what is flown with it tells what actions other than an agent's own lead to."""
 
 from __future__ import annotations
 

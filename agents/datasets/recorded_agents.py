@@ -19,7 +19,7 @@ from dq_marine.envs.core.observation import Observation
 
 
 class Disturbed:
-    """An agent whose actions are disturbed: what it flies tells what other actions than its own would lead to."""
+    """An agent whose actions are disturbed: what it flies tells what actions other than its own would lead to."""
 
     def __init__(self, agent: Agent, noise: float, seed: int) -> None:
         """Take the noise's standard deviation, of actions between -1 and 1, and the seed of all that is drawn."""

@@ -53,7 +53,7 @@ def record(
             "--noise",
             min=0.0,
             help="Standard deviation of what is added to actions, which are between -1 and 1: data with it tell what "
-            "other actions than the agent's lead to.",
+            "actions other than the agent's lead to.",
         ),
     ] = 0.0,
     preset: EnvironmentPresetOption = None,
