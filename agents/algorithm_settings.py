@@ -55,12 +55,17 @@ class PPOSettings(RolloutSettings):
 
 
 class RecurrentPPOSettings(RolloutSettings):
-    """Those of PPO with a network that remembers: a long short-term memory before the layers."""
+    """Those of PPO with a network that remembers: a long short-term memory before the layers.
 
-    OF_THE_POLICY = ("log_std_init", "lstm_hidden_size")
+    Attributes:
+        enable_critic_lstm: whether the critic remembers, too; it learns faster where it need not.
+    """
+
+    OF_THE_POLICY = ("log_std_init", "lstm_hidden_size", "enable_critic_lstm")
 
     name: Literal["recurrent_ppo"]
     lstm_hidden_size: Count
+    enable_critic_lstm: bool = True
 
 
 class ReplaySettings(LearnerSettings):

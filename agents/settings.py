@@ -9,6 +9,9 @@ from pydantic import Field, model_validator
 from dq_marine.agents.algorithm_settings import AlgorithmSettings, CrossQSettings, RolloutSettings
 from dq_marine.agents.strict_settings import Count, Fraction, NonNegative, Positive, Settings
 
+IMITATING = ("ppo", "recurrent_ppo")
+"""Algorithms that can begin as the copy of a baseline."""
+
 PRIVILEGED_KEYWORD = "privileged"
 """Of an environment: what a part of its observation shows that only the simulator knows."""
 
@@ -208,10 +211,13 @@ class ImitationSettings(Settings):
         episodes: that it flies.
         noise: standard deviation of what its actions are disturbed by while it flies, over the actuators' reach.
         epochs: how often what it flew is learned from.
-        batch_size: of control periods.
+        batch_size: of control periods; a policy that remembers learns 16 stretches side by side, each a 16th as long.
         learning_rate: of this beginning.
         rounds: thereafter, in each of which the policy flies as many episodes itself, and learns what the teacher would
             have done there.
+        turns: control periods, on the mean, after which policy and teacher take turns in these rounds; what the teacher
+            does is then learned only while it flies. At 0 the policy flies throughout, and all is learned: a teacher
+            whose integrals run away while another flies teaches nonsense there.
     """
 
     teacher: Literal["controller", "lqr", "mpc"] = "controller"
@@ -221,6 +227,7 @@ class ImitationSettings(Settings):
     batch_size: Count = 256
     learning_rate: Positive = 1e-3
     rounds: Annotated[int, Field(ge=0, le=100)] = 0
+    turns: Annotated[int, Field(ge=0)] = 0
 
 
 class CurriculumSettings(Settings):
@@ -301,9 +308,10 @@ class TrainingSettings(Settings):
 
     @model_validator(mode="after")
     def _can_imitate(self) -> Self:
-        if self.imitation is not None and self.algorithm.name != "ppo":
+        if self.imitation is not None and self.algorithm.name not in IMITATING:
             raise ValueError(
-                f"imitation goes with ppo, and algorithm.name = {self.algorithm.name!r}; leave one of them out"
+                f"imitation goes with {' or '.join(IMITATING)}, and algorithm.name = {self.algorithm.name!r}; "
+                "leave one of them out"
             )
         return self
 

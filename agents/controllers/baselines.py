@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self, runtime_checkable
 
 import gymnasium as gym
 import numpy as np
+from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.avoidance import AvoidanceController
 from dq_marine.agents.controllers.berthing import BerthingController
@@ -59,6 +60,20 @@ class Controller(Agent, Protocol):
         Raises:
             InvalidInputError: it cannot fly in this environment.
         """
+
+
+@runtime_checkable
+class Estimating(Protocol):
+    """A controller that finds out, from what came before, what no observation shows."""
+
+    @property
+    def estimate(self) -> NDArray[np.float64]:
+        """What it has found out by now, shape (k,)."""
+
+
+def estimate_of(agent: Agent) -> NDArray[np.float64]:
+    """Return what an agent has found out that no observation shows, shape (k,); k is 0 for one that tells of none."""
+    return agent.estimate if isinstance(agent, Estimating) else np.zeros(0)
 
 
 CONTROLLERS: tuple[type[Controller], ...] = (

@@ -46,13 +46,13 @@ class EncounterController(Journey):
         self._fastest = length / self._pilot.turning_radius(self._speed)
         # In lengths and in times of a length; that of three quarters of the speed stands for all of them.
         self._braking = max(0.0, self._pilot.braking(0.75 * self._speed) * length / self._speed**2)
-        self._chosen, self._until_choice = ON_ROUTE, 0
+        self._chosen, self._until_choice, self._turn = ON_ROUTE, 0, 0.0
 
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
         super().reset(env)
         self._choice.reset()
-        self._chosen, self._until_choice = ON_ROUTE, 0
+        self._chosen, self._until_choice, self._turn = ON_ROUTE, 0, 0.0
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""
@@ -69,10 +69,14 @@ class EncounterController(Journey):
             self._until_choice = self._periods
         self._until_choice -= 1
         wanted = sight(starboard) if self._chosen.course is None else self._chosen.course
+        self._turn = wrapped(wanted - course)
         speed = self._chosen.speed * self._speed
-        return self._pilot.act(
-            attitude, Order(speed, speed - attitude.speed, wrapped(wanted - course), 0.0, 0.0)
-        )
+        return self._pilot.act(attitude, Order(speed, speed - attitude.speed, self._turn, 0.0, 0.0))
+
+    @property
+    def estimate(self) -> Array:
+        """How far it has to turn to the course that it has chosen [rad], and the speed, over that of the route."""
+        return np.array([self._turn, self._chosen.speed])
 
     def _others(self, parts: dict[str, Array], velocity: tuple[float, float, float], route: float) -> Others:
         """Return the vessels that there are, along the route and to starboard of it."""

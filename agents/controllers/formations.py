@@ -61,7 +61,7 @@ class FormationController(GuidedJourney):
     def reset(self, env: gym.Env[Any, Any] | None = None) -> None:
         """Forget the episode before."""
         super().reset(env)
-        self._filter = None
+        self._filter, self._bow = None, 0.0
         self._ages = [math.inf] * len(SENDERS)
 
     def act(self, observation: Observation) -> Action:
@@ -70,6 +70,7 @@ class FormationController(GuidedJourney):
         attitude = seen(parts)
         north, east = parts["bow_north_east"].tolist()
         bow = math.atan2(east, north)
+        self._bow = bow
         places = parts["places_from_own"].reshape(3, 2)
         place = (-float(places[0, 0]), -float(places[0, 1]))
         state = self._estimated(
@@ -94,6 +95,21 @@ class FormationController(GuidedJourney):
             off,
         )
         return self._pilot.act(attitude, order)
+
+    @property
+    def estimate(self) -> Array:
+        """Where the vehicle is in the formation, and how that goes, shape (8,).
+
+        Off the formation's middle ahead and to starboard [m], the formation's course, ahead and to starboard, and the
+        rest of what the filter estimates.
+        """
+        if self._filter is None:
+            return np.zeros(8)
+        state = self._filter.state
+        place = turned((float(state[0]), float(state[1])), -self._bow)
+        course = float(state[COURSE]) - self._bow
+        others = (float(state[k]) for k in (TURNING, SPEED, DEPTH, SINKING))
+        return np.array([*place, math.cos(course), math.sin(course), *others])
 
     def _estimated(
         self,

@@ -87,6 +87,7 @@ class RendezvousController(GuidedJourney):
         attitude = seen(parts)
         north, east = parts["bow_north_east"].tolist()
         bow = math.atan2(east, north)
+        self._bow = bow
         self._hear(parts, attitude, bow)
         speed = float(parts["partner_speed"][0])
         if self._filter is None:
@@ -105,12 +106,19 @@ class RendezvousController(GuidedJourney):
         )
         return self._pilot.act(attitude, order)
 
+    @property
+    def estimate(self) -> Array:
+        """Where the partner is [m] and how it goes [m/s], each ahead and to starboard, and how deep [m], shape (5,)."""
+        partner = np.zeros(4) if self._filter is None else self._filter.likeliest
+        place, going = (turned((float(n), float(e)), -self._bow) for n, e in partner.reshape(2, 2))
+        return np.array([*place, *going, self._depth])
+
     def _forget(self) -> None:
         """Begin anew."""
         self._filter: PartnerFilter | None = None
         self._first_bow: float | None = None
         self._velocity: Level = (0.0, 0.0)
-        self._side = 1.0
+        self._side, self._bow = 1.0, 0.0
         self._age, self._silence, self._depth, self._sinking = math.inf, 0.0, 0.0, 0.0
 
     def _wanted(self, partner: Partner, own: Level, beside: float, planned: float) -> Level:

@@ -17,6 +17,9 @@ from dq_marine.vehicles.model import MOTIONS
 METADATA_KEY = "dq_marine.policy"
 """Of the entry in an ONNX file's `metadata_props`, and of the extra file in a TorchScript archive."""
 
+MEMORY, NEW_MEMORY = "memory", "new_memory"
+"""What the graph of a policy that remembers is given besides observations, and gives besides actions."""
+
 LONGEST_DESCRIPTION = 1 << 20
 """In characters; the longest of a task that ships has a few thousand."""
 
@@ -69,6 +72,7 @@ class PolicyDescription(Settings):
         observations: what the graph's inputs hold.
         actuation: what an action is: a "wrench" on the body, or commands of the "thrusters".
         actions: what the graph's output holds.
+        memory: how many numbers the graph is given back that it gave the step before, zeros when an episode begins.
         algorithm: that trained it.
         seed: of the training.
         timesteps: that it had learned from.
@@ -83,6 +87,7 @@ class PolicyDescription(Settings):
     observations: Annotated[tuple[ObservedPart, ...], Field(min_length=1)]
     actuation: str
     actions: Annotated[tuple[CommandedPart, ...], Field(min_length=1)]
+    memory: Annotated[int, Field(ge=0)] = 0
     algorithm: str
     seed: Annotated[int, Field(ge=0)]
     timesteps: Annotated[int, Field(ge=0)]
@@ -139,7 +144,13 @@ class PolicyDescription(Settings):
 
 
 def described(
-    environment: EnvironmentSettings, *, algorithm: str, seed: int, timesteps: int, versions: dict[str, str]
+    environment: EnvironmentSettings,
+    *,
+    algorithm: str,
+    seed: int,
+    timesteps: int,
+    versions: dict[str, str],
+    memory: int = 0,
 ) -> PolicyDescription:
     """Return the description of a policy that was trained in an environment.
 
@@ -166,6 +177,7 @@ def described(
         ),
         actuation=inner.settings.actuation,
         actions=commands_of(inner),
+        memory=memory,
         algorithm=algorithm,
         seed=seed,
         timesteps=timesteps,

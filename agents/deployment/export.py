@@ -63,14 +63,15 @@ def export_policy(
     seed = whole_number("seed", seed, least=0)
     card_file = _checked_targets(targets, force=force)
     plan, policy = run.read_plan(), TrainedPolicy(run)
+    graph = PolicyGraph(policy.model, policy.normalisation)
     description = described(
         plan.settings.environment,
         algorithm=plan.settings.algorithm.name,
         seed=plan.seed,
         timesteps=read_progress(run.trained_snapshot).timesteps,
         versions=plan.versions,
+        memory=graph.memory_size,
     )
-    graph = PolicyGraph(policy.model, policy.normalisation)
     contents = {target: FORMATS[target.suffix](graph, description) for target in targets}
     evaluated = _evaluated(plan, policy, episodes, seed, progress) if episodes else None
     for target, content in contents.items():

@@ -33,8 +33,8 @@ def onnx_bytes(graph: PolicyGraph, description: PolicyDescription) -> bytes:
             dynamo=True,
             opset_version=OPSET,
             input_names=list(graph.input_names),
-            output_names=["action"],
-            dynamic_shapes={"observations": tuple({0: batch} for _ in graph.input_names)},
+            output_names=list(graph.output_names),
+            dynamic_shapes={"given": tuple({0: batch} for _ in graph.input_names)},
             verbose=False,
         )
     model: onnx.ModelProto = cast(torch.onnx.ONNXProgram, program).model_proto

@@ -5,11 +5,13 @@ It is what Stable-Baselines3's `predict(deterministic=True)` does behind `VecNor
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
 
+from dq_marine.agents.deployment.description import MEMORY, NEW_MEMORY
 from dq_marine.agents.training.algorithms import Model
 from dq_marine.agents.training.public_part import public_space
 from dq_marine.agents.training.symlog import SymlogNormalize
@@ -23,7 +25,7 @@ with extra_needed("exporting a policy", "agents"):
     from stable_baselines3.td3.policies import TD3Policy
     from torch import Tensor, nn
 
-EXPORTED = "ppo, sac, td3, tqc or crossq"
+EXPORTED = "ppo, sac, td3, tqc, crossq or recurrent_ppo"
 """Algorithms whose policies can be."""
 
 
@@ -33,6 +35,8 @@ class PolicyGraph(nn.Module):
     Attributes:
         input_names: of the arguments of `forward`, in their order.
         sizes: how many numbers each takes.
+        output_names: of what it returns.
+        memory_size: how many numbers it remembers from step to step; 0 for none.
     """
 
     _low: Tensor
@@ -47,11 +51,15 @@ class PolicyGraph(nn.Module):
         super().__init__()
         space = public_space(model.observation_space)
         spaces = dict(space.spaces) if isinstance(space, gym.spaces.Dict) else {"observation": space}
-        self.input_names = tuple(spaces)
-        self.sizes = tuple(int(np.prod(one.shape or ())) for one in spaces.values())
+        self._seen_names = tuple(spaces)
         self._in_parts = isinstance(model.observation_space, gym.spaces.Dict)
         self._normalised = nn.ModuleList(_Normalised(normalisation, name, self._in_parts) for name in spaces)
         self._decided = _decision(model.policy)
+        self.memory_size = int(getattr(self._decided, "memory_size", 0))
+        remembered = (self.memory_size,) if self.memory_size else ()
+        self.input_names = (*spaces, *((MEMORY,) if remembered else ()))
+        self.sizes = (*(int(np.prod(one.shape or ())) for one in spaces.values()), *remembered)
+        self.output_names = ("action", *((NEW_MEMORY,) if remembered else ()))
         action = model.action_space
         if not isinstance(action, gym.spaces.Box):
             raise InvalidInputError(f"actions are of {action}; export a policy whose actions are of a Box")
@@ -59,11 +67,25 @@ class PolicyGraph(nn.Module):
         self.register_buffer("_low", torch.as_tensor(action.low))
         self.register_buffer("_high", torch.as_tensor(action.high))
 
-    def forward(self, *observations: Tensor) -> Tensor:
-        """Return actions, shape (batch, m), for raw observations, each of shape (batch, n)."""
+    def forward(self, *given: Tensor) -> Tensor | tuple[Tensor, Tensor]:
+        """Return actions, shape (batch, m), for raw observations, each of shape (batch, n).
+
+        A policy that remembers is given its memory last, zeros when an episode begins, and gives the new one back.
+        """
+        if not self.memory_size:
+            return self._limited(self._decided(self._seen(given)))
+        *observations, memory = given
+        decided, remembered = self._decided(self._seen(observations), memory)
+        return self._limited(decided), remembered
+
+    def _seen(self, observations: Sequence[Tensor]) -> Tensor | dict[str, Tensor]:
+        """Return observations as the network takes them."""
         normalised = [one(raw) for one, raw in zip(self._normalised, observations, strict=True)]
-        named = dict(zip(self.input_names, normalised, strict=True))
-        decided: Tensor = self._decided(named if self._in_parts else normalised[0])
+        named = dict(zip(self._seen_names, normalised, strict=True))
+        return named if self._in_parts else normalised[0]
+
+    def _limited(self, decided: Tensor) -> Tensor:
+        """Return actions within the space that they are of."""
         if self._squashed:  # within [-1, 1], to be stretched over the space, which round-off may leave
             decided = self._low + 0.5 * (decided + 1.0) * (self._high - self._low)
         return torch.maximum(torch.minimum(decided, self._high), self._low)
@@ -126,10 +148,9 @@ class _SquashedDecision(nn.Module):
 
 def _decision(policy: BasePolicy) -> nn.Module:
     if hasattr(policy, "lstm_actor"):
-        raise InvalidInputError(
-            f"a policy of {type(policy).__name__} remembers the steps before, which an exported file does not; fly it "
-            f"from the folder of its run, or export one of {EXPORTED}"
-        )
+        from dq_marine.agents.deployment.graph_memory import RecurrentDecision
+
+        return RecurrentDecision(policy)
     if isinstance(policy, ActorCriticPolicy):
         return _PPODecision(policy)
     if isinstance(policy, TD3Policy):

@@ -7,8 +7,9 @@ from typing import Any
 
 import gymnasium as gym
 import numpy as np
+from numpy.typing import NDArray
 
-from dq_marine.agents.deployment.description import METADATA_KEY, PolicyDescription
+from dq_marine.agents.deployment.description import MEMORY, METADATA_KEY, PolicyDescription
 from dq_marine.agents.deployment.seal import has_seal, is_whole
 from dq_marine.agents.environments import marine
 from dq_marine.checks import existing_file, shown
@@ -57,10 +58,11 @@ class OnnxPolicy:
         metadata = self._session.get_modelmeta().custom_metadata_map
         self.description = PolicyDescription.read(metadata.get(METADATA_KEY, ""), source=str(path))
         self._inputs = self.description.inputs
+        self._memory: NDArray[np.float32] | None = None
         self._check_graph(path)
 
     def reset(self, env: gym.Env[Any, Any]) -> None:
-        """Check that the policy fits the environment; it keeps nothing from step to step.
+        """Check that the policy fits the environment, and forget the episode before, if it remembers.
 
         Raises:
             InvalidInputError: the environment's observations or actions are not those that it was trained on.
@@ -71,22 +73,36 @@ class OnnxPolicy:
                 f"the policy was trained in {self.description.environment.id} with {self.description.vehicle}; this "
                 f"environment has {'; '.join(differing)}; fly it with the task, vehicle and sensors of its training"
             )
+        self._memory = None
 
     def act(self, observation: Observation) -> Action:
-        """Return the most likely action, shape (m,); for observations of shape (batch, n), (batch, m)."""
+        """Return the most likely action, shape (m,); for observations of shape (batch, n), (batch, m).
+
+        What it remembers is of the steps since `reset`, or since the batch was of another size.
+        """
         parts = observation if isinstance(observation, dict) else {next(iter(self._inputs)): observation}
         single = next(iter(parts.values())).ndim == 1
         feeds = {name: np.atleast_2d(np.asarray(parts[name], np.float32)) for name in self._inputs}
-        actions: Action = self._session.run(None, feeds)[0]
+        if self.description.memory:
+            count = len(next(iter(feeds.values())))
+            if self._memory is None or len(self._memory) != count:
+                self._memory = np.zeros((count, self.description.memory), np.float32)
+            feeds[MEMORY] = self._memory
+        actions: Action
+        actions, *remembered = self._session.run(None, feeds)
+        self._memory = remembered[0] if remembered else None
         return actions[0] if single else actions
 
     def _check_graph(self, path: Path) -> None:
         """Check that the graph takes and gives what the description says."""
         found = {one.name: one.shape[1:] for one in self._session.get_inputs()}
         given = [one.shape[1:] for one in self._session.get_outputs()]
-        if found != {name: [size] for name, size in self._inputs.items()} or given != [
-            [len(self.description.actions)]
-        ]:
+        memory = self.description.memory
+        inputs = {name: [size] for name, size in self._inputs.items()} | (
+            {MEMORY: [memory]} if memory else {}
+        )
+        outputs = [[len(self.description.actions)], *([[memory]] if memory else [])]
+        if found != inputs or given != outputs:
             raise InvalidInputError(
                 f"{path} holds a graph from {found} to {given}, which is not what its description says; export it anew "
                 "with `dq-marine export`"

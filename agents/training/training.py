@@ -238,8 +238,11 @@ def _model(folder: RunFolder, plan: RunPlan, lesson: int, console: Console) -> M
     if checkpoint is None:
         model = make_model(settings, plan.seed, folder.tensorboard)
         if settings.imitation is not None:
-            with console.status(f"Imitating the {settings.imitation.teacher}"):
-                error = imitate(model, settings, plan.seed)
+            title = f"Imitating the {settings.imitation.teacher}"
+            with console.status(title) as status:
+                error = imitate(
+                    model, settings, plan.seed, say=lambda words: status.update(f"{title}: {words}")
+                )
             console.print(
                 f"Begins as a copy of the {settings.imitation.teacher}: its actions differ by "
                 f"{math.sqrt(error):.3f} of the actuators' reach, root mean square"

@@ -1,4 +1,4 @@
-"""Tiny runs of both algorithms, each exported in both formats with its card."""
+"""Tiny runs of some algorithms, each exported in both formats with its card."""
 
 from __future__ import annotations
 
@@ -45,6 +45,11 @@ def ppo(tmp_path_factory: pytest.TempPathFactory) -> Trained:
 @pytest.fixture(scope="session")
 def sac(tmp_path_factory: pytest.TempPathFactory) -> Trained:
     return _trained("sac", tmp_path_factory.mktemp("sac"))
+
+
+@pytest.fixture(scope="session")
+def recurrent_ppo(tmp_path_factory: pytest.TempPathFactory) -> Trained:
+    return _trained("recurrent_ppo", tmp_path_factory.mktemp("recurrent_ppo"))
 
 
 def _trained(algorithm: str, folder: Path) -> Trained:

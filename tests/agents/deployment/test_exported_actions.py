@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from typing import Any
 
 import gymnasium as gym
@@ -140,10 +141,40 @@ def test_what_this_package_does_not_train_is_refused() -> None:
         PolicyGraph(DQN("MlpPolicy", envs, device="cpu", buffer_size=10), envs)
 
 
-def test_what_remembers_is_refused() -> None:
-    envs = VecNormalize(DummyVecEnv([lambda: Somewhere(False)]))
-    with pytest.raises(InvalidInputError, match=r"remembers the steps before, .* fly it from the folder"):
-        PolicyGraph(RecurrentPPO("MlpLstmPolicy", envs, device="cpu"), envs)
+@pytest.mark.parametrize("goals", [False, True])
+def test_what_remembers_is_given_its_memory_and_gives_it_back(goals: bool, ppo: Any) -> None:
+    rng, count, steps = np.random.default_rng(2), 3, 40
+    envs = SymlogNormalize(DummyVecEnv([lambda: Somewhere(goals)]), clip_obs=5.0)
+    policy = "MultiInputLstmPolicy" if goals else "MlpLstmPolicy"
+    network = {"net_arch": [16], "lstm_hidden_size": 8}
+    model = RecurrentPPO(policy, envs, seed=0, device="cpu", policy_kwargs=network)
+    with torch.no_grad():  # so that what is remembered counts, and limits are reached
+        model.policy.action_net.weight.mul_(500.0)
+        model.policy.lstm_actor.weight_hh_l0.mul_(3.0)
+    spaces = envs.observation_space.spaces if goals else {"observation": envs.observation_space}
+    graph = PolicyGraph(model, envs)
+    assert graph.input_names == (*spaces, "memory")
+    description = OnnxPolicy(ppo.onnx).description.model_copy(update={"memory": graph.memory_size})
+    session = onnxruntime.InferenceSession(onnx_bytes(graph, description))
+    with pytest.deprecated_call():
+        traced = torch.jit.load(io.BytesIO(torchscript_bytes(graph, description)))
+    state: Any = None
+    memory = in_script = np.zeros((count, 16), np.float32)
+    acted = []
+    for step in range(steps):
+        inputs = {name: scattered(rng, space.shape[0], count) for name, space in spaces.items()}
+        given = envs.normalize_obs(inputs if goals else inputs["observation"])
+        begun = np.full(count, step == 0)
+        expected, state = model.predict(given, state=state, episode_start=begun, deterministic=True)
+        actions, memory = session.run(["action", "new_memory"], {**inputs, "memory": memory})
+        np.testing.assert_allclose(actions, expected, rtol=0.0, atol=20.0 * ROUND_OFF)
+        with torch.no_grad():
+            tensors = [torch.as_tensor(one) for one in (*inputs.values(), in_script)]
+            scripted, in_script = (one.numpy() for one in traced(*tensors))
+        np.testing.assert_allclose(scripted, expected, rtol=0.0, atol=20.0 * ROUND_OFF)
+        forgotten = session.run(["action"], {**inputs, "memory": np.zeros_like(memory)})[0]
+        acted.append(np.abs(forgotten - actions).max())
+    assert np.max(acted[1:]) > 0.1  # so it does remember
 
 
 @pytest.mark.parametrize("write", [onnx_bytes, torchscript_bytes])

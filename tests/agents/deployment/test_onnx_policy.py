@@ -30,7 +30,7 @@ STATION = "dq_marine/StationKeeping-v0"
 DAMAGED = r"is no policy that dq-marine exported|is damaged"
 
 
-@pytest.mark.parametrize("algorithm", ["ppo", "sac"])
+@pytest.mark.parametrize("algorithm", ["ppo", "sac", "recurrent_ppo"])
 def test_an_episode_is_that_of_the_run(algorithm: str, request: pytest.FixtureRequest) -> None:
     made = request.getfixturevalue(algorithm)
     policy = OnnxPolicy(made.onnx)
@@ -41,6 +41,21 @@ def test_an_episode_is_that_of_the_run(algorithm: str, request: pytest.FixtureRe
     for name, values in theirs.measured.items():
         np.testing.assert_allclose(ours.measured[name], values, rtol=0.0, atol=1e-5)
     assert ours.total_reward == pytest.approx(theirs.total_reward, abs=1e-4)
+
+
+def test_what_it_remembers_is_of_the_episode_alone(recurrent_ppo: Any) -> None:
+    policy = OnnxPolicy(recurrent_ppo.onnx)
+    assert policy.description.memory == 16
+    env = make_environment(policy.description.environment)
+    observation, _ = env.reset(seed=3)
+    policy.reset(env)
+    first, second = policy.act(observation), policy.act(observation)
+    assert (first != second).any()
+    policy.reset(env)
+    assert np.array_equal(policy.act(observation), first)
+    both = policy.act(np.stack([observation, observation]))  # a batch begins anew, and goes on by itself
+    assert np.allclose(both, first, rtol=0.0, atol=1e-6)
+    assert np.allclose(policy.act(np.stack([observation, observation])), second, rtol=0.0, atol=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -14,10 +14,11 @@ from support.trainings import tiny
 from dq_marine.agents.controllers.baselines import ZeroAgent, make_baseline
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.settings import ImitationSettings, NetworkSettings, TrainingSettings
-from dq_marine.agents.training import imitation
-from dq_marine.agents.training.imitation import Pupil, imitate, taught
+from dq_marine.agents.training import teaching
+from dq_marine.agents.training.imitation import imitate
 from dq_marine.agents.training.learners import environments_of, make_model
 from dq_marine.agents.training.run_folder import RunFolder
+from dq_marine.agents.training.teaching import Pupil, taught
 from dq_marine.agents.training.training import begin_training
 from dq_marine.agents.tuning.tuning import plan_of
 from dq_marine.cli.agent_options import EnvironmentOptions, requested_training
@@ -67,7 +68,7 @@ def test_it_follows_from_the_seed(tmp_path: Path) -> None:
 @pytest.mark.parametrize("whole", [True, False])
 def test_returns_are_discounted_sums_of_what_follows(whole: bool) -> None:
     rewards, gamma = np.random.default_rng(0).normal(size=40).tolist(), 0.8
-    returns = imitation._returns(rewards, gamma, whole=whole)
+    returns = teaching._returns(rewards, gamma, whole=whole)
     expected = [sum(gamma**k * reward for k, reward in enumerate(rewards[i:])) for i in range(40)]
     known = 40 if whole else 25  # 3/(1 - 0.8) periods before the end are not known
     assert returns[:known] == pytest.approx(expected[:known], abs=1e-12)

@@ -159,9 +159,12 @@ def test_a_run_is_resumed_with_its_critic(tmp_path: Path, console: Console) -> N
     assert PRIVILEGED in TrainedPolicy(folder).model.observation_space.spaces
 
 
-def test_a_copy_of_a_teacher_is_made_without_it_and_its_critic_with_it(tmp_path: Path) -> None:
+@pytest.mark.parametrize("algorithm", ["ppo", "recurrent_ppo"])
+def test_a_copy_of_a_teacher_is_made_without_it_and_its_critic_with_it(
+    algorithm: str, tmp_path: Path
+) -> None:
     brief = ImitationSettings(episodes=6, epochs=10, batch_size=64, learning_rate=3e-3)
-    settings = hiding(tiny(tmp_path, "ppo", 64)).model_copy(update={"imitation": brief})
+    settings = hiding(tiny(tmp_path, algorithm, 64)).model_copy(update={"imitation": brief})
     model = make_model(settings, 3, tmp_path)
     before = parameters_of(model)
     error = imitate(model, settings, 3)

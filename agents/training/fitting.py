@@ -1,0 +1,76 @@
+"""Fitting a policy without a memory to what a teacher did, and its critic to what that earned."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dq_marine.agents.settings import ImitationSettings
+from dq_marine.agents.training.teaching import Lessons
+from dq_marine.util.extras import extra_needed
+
+with extra_needed("training", "agents"):
+    import torch
+    from stable_baselines3.common.policies import ActorCriticPolicy
+    from stable_baselines3.common.vec_env import VecNormalize
+
+HELD_BACK = 0.1
+"""Share of what was flown that is not learned from, but tells how well the rest was."""
+
+
+def fit_steps(
+    policy: ActorCriticPolicy,
+    envs: VecNormalize,
+    lessons: Lessons,
+    imitation: ImitationSettings,
+    random: np.random.Generator,
+) -> float:
+    """Fit the policy to the actions and the critic to the returns; return how far actions held back are missed."""
+    observations, _ = policy.obs_to_tensor(envs.normalize_obs(lessons.observations))
+    actions = torch.as_tensor(lessons.actions)
+    scale = np.sqrt(envs.ret_rms.var + envs.epsilon) if envs.norm_reward else 1.0
+    returns = torch.as_tensor(np.asarray(lessons.returns / scale, dtype=np.float32))
+    held_back, learned = np.split(random.permutation(len(actions)), [max(1, round(HELD_BACK * len(actions)))])
+    optimiser = torch.optim.Adam(policy.parameters(), lr=imitation.learning_rate)
+    policy.set_training_mode(True)
+    for batch in _batches(learned, imitation, random):
+        mean, values = _foretold(policy, _rows_of(observations, batch))
+        known, told = torch.isfinite(returns[batch]), torch.isfinite(actions[batch][:, 0])
+        terms = [torch.nn.functional.mse_loss(mean[told], actions[batch][told])] if told.any() else []
+        if known.any():
+            terms.append(torch.nn.functional.mse_loss(values[known], returns[batch][known]))
+        if not terms:
+            continue
+        optimiser.zero_grad()
+        sum(terms[1:], terms[0]).backward()  # type: ignore[no-untyped-call]
+        optimiser.step()
+    policy.set_training_mode(False)
+    with torch.no_grad():
+        mean, _ = _foretold(policy, _rows_of(observations, held_back))
+        missed = (mean - actions[held_back])[torch.isfinite(actions[held_back])]
+        return float(torch.mean(missed * missed))
+
+
+def _batches(
+    rows: NDArray[np.int64], imitation: ImitationSettings, random: np.random.Generator
+) -> Iterator[NDArray[np.int64]]:
+    """Yield the rows in batches, in another order in each epoch."""
+    for _ in range(imitation.epochs):
+        order = random.permutation(rows)
+        for start in range(0, len(order), imitation.batch_size):
+            yield order[start : start + imitation.batch_size]
+
+
+def _rows_of(observations: Any, rows: NDArray[np.int64]) -> Any:
+    if isinstance(observations, dict):
+        return {name: values[rows] for name, values in observations.items()}
+    return observations[rows]
+
+
+def _foretold(policy: ActorCriticPolicy, observations: Any) -> tuple[torch.Tensor, torch.Tensor]:
+    """Return the mean of the actions, shape (n, axes), and the critic's values, shape (n,)."""
+    distribution: Any = policy.get_distribution(observations).distribution  # torch's normal one, not SB3's
+    return distribution.mean, policy.predict_values(observations).flatten()
