@@ -30,14 +30,17 @@ from dq_marine.integrator.sweeps import ROUND_OFF, ROUND_OFF_SINGLE, Ending, kep
 
 MAX_SWEEPS = 40
 TELLING = 4  # the sweep whose rates tell how exact the method is; tests begin there, once corners are in
-SLOW = 0.25  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
+SLOW = 0.4  # of the squared change, from one sweep to the next: sweeps that shrink it less want a new matrix
 SLOWEST = 0.5  # the same: sweeps that shrink it less are not done
 HOPELESS = 1e12  # of the size, squared: sweeps that change more diverge
 CORNER_PERIOD = 3  # sweeps from one look at corners to the next: they settle sooner than the rest
 CORNER_SWEEPS = 16  # that follow corners: where zeros come and go for longer, sweeps go on without
 
-ENDING = Ending(0.0003, 0.0, 0.0003, 0.06)
+ENDING = Ending(0.0003, 0.05, 0.01, 0.06)
 """Of sweeps, by the highest power in the polynomial through the rates."""
+
+STIFF_ENDING = Ending(0.0003, 0.0, 0.0003, 0.06)
+"""Of those of Newton's method: where damping is stiff, that power tells little of how much long steps err."""
 
 Solve: TypeAlias = Callable[
     [Surroundings, Any, Place, ForcedStage, float],
@@ -106,7 +109,8 @@ def make_solve(
             count += 1
             if sweep == TELLING:
                 told = telltale(length_squared, now.rate.momentum)
-                tolerance = max(tolerance, tolerated(ENDING, told, size))
+                plain, stiff = tolerated(ENDING, told, size), tolerated(STIFF_ENDING, told, size)
+                tolerance = max(tolerance, select(implicit, stiff, plain))
             if sweep >= TELLING:
                 contracts = last < SLOWEST * before
                 done = (contracts & (last * last <= tolerance * before)) | (last <= tolerance)
