@@ -14,6 +14,7 @@ import numpy as np
 from dq_marine.agents.deployment.description import MEMORY, NEW_MEMORY
 from dq_marine.agents.training.algorithms import Model
 from dq_marine.agents.training.public_part import public_space
+from dq_marine.agents.training.recurrent_decision import RecurrentDecision
 from dq_marine.agents.training.symlog import SymlogNormalize
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
@@ -148,8 +149,6 @@ class _SquashedDecision(nn.Module):
 
 def _decision(policy: BasePolicy) -> nn.Module:
     if hasattr(policy, "lstm_actor"):
-        from dq_marine.agents.deployment.graph_memory import RecurrentDecision
-
         return RecurrentDecision(policy)
     if isinstance(policy, ActorCriticPolicy):
         return _PPODecision(policy)

@@ -14,9 +14,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.settings import ImitationSettings, TrainingSettings
 from dq_marine.agents.training.algorithms import Model
 from dq_marine.agents.training.fitting import fit_steps
+from dq_marine.agents.training.recurrent_decision import RememberingPupil
 from dq_marine.agents.training.teaching import TEACHING_SEED, Lessons, Pupil, taught
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
@@ -32,6 +34,8 @@ Fit: TypeAlias = Callable[
     [Any, VecNormalize, Lessons, ImitationSettings, np.random.Generator],
     float,
 ]
+
+MakePupil: TypeAlias = Callable[[Any, VecNormalize], Agent]
 
 
 def imitate(
@@ -56,7 +60,7 @@ def imitate(
         raise InvalidInputError(
             f"{settings.algorithm.name} cannot begin as a copy; train with ppo or recurrent_ppo"
         )
-    fit = _fit_of(policy)
+    fit, make_pupil = _learner_of(policy)
     flying = np.random.default_rng([seed, TEACHING_SEED])
     learning = np.random.default_rng([seed, TEACHING_SEED + 1])
     say(f"the {imitation.teacher} flies {imitation.episodes} episodes")
@@ -68,7 +72,7 @@ def imitate(
         which = f"round {number} of {imitation.rounds}"
         say(f"{which}: the policy flies {imitation.episodes} episodes")
         first = TEACHING_SEED + number * imitation.episodes
-        further = taught(settings, imitation, flying, pupil=Pupil(policy, envs), first=first)
+        further = taught(settings, imitation, flying, pupil=make_pupil(policy, envs), first=first)
         _take_statistics(envs, further)
         lessons = lessons.and_also(further)
         say(f"{which}: what the {imitation.teacher} would have done is learned")
@@ -78,13 +82,13 @@ def imitate(
     return difference
 
 
-def _fit_of(policy: ActorCriticPolicy) -> Fit:
-    """Return what fits a policy, one with a memory or without."""
+def _learner_of(policy: ActorCriticPolicy) -> tuple[Fit, MakePupil]:
+    """Return what fits a policy, one with a memory or without, and what lets it fly."""
     if hasattr(policy, "lstm_actor"):
         from dq_marine.agents.training.fitting_memory import fit_episodes  # here: it imports sb3-contrib
 
-        return fit_episodes
-    return fit_steps
+        return fit_episodes, RememberingPupil
+    return fit_steps, Pupil
 
 
 def _take_statistics(envs: VecNormalize, lessons: Lessons) -> None:

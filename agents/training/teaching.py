@@ -70,21 +70,18 @@ class Lessons:
 
 
 class Pupil:
-    """What the policy does by now, as an agent."""
+    """What a policy without a memory does by now, as an agent."""
 
     def __init__(self, policy: ActorCriticPolicy, envs: VecNormalize) -> None:
         """Take the policy and the environments that normalise what it sees."""
         self._policy, self._envs = policy, envs
-        self._remembered: tuple[NDArray[Any], ...] | None = None
 
     def reset(self, env: gym.Env[Any, Any]) -> None:
-        """Forget the episode before, if the policy remembers."""
-        self._remembered = None
+        """Do nothing: it remembers nothing."""
 
     def act(self, observation: Any) -> NDArray[np.float32]:
         """Return its most likely action."""
-        seen = self._envs.normalize_obs(observation)
-        action, self._remembered = self._policy.predict(seen, state=self._remembered, deterministic=True)
+        action, _ = self._policy.predict(self._envs.normalize_obs(observation), deterministic=True)
         return np.asarray(action, dtype=np.float32)
 
 

@@ -22,7 +22,8 @@ from dq_marine.agents.training.fitting import fit_steps
 from dq_marine.agents.training.fitting_memory import STREAMS, _Fitted, fit_episodes, pieces
 from dq_marine.agents.training.imitation import imitate
 from dq_marine.agents.training.learners import environments_of, make_model
-from dq_marine.agents.training.teaching import Lessons, Pupil, taught
+from dq_marine.agents.training.recurrent_decision import RememberingPupil
+from dq_marine.agents.training.teaching import Lessons, taught
 
 
 @given(st.lists(st.integers(1, 60), min_size=1, max_size=40), st.integers(1, 25), st.randoms())
@@ -66,7 +67,7 @@ def test_what_is_remembered_goes_on_from_piece_to_piece_as_in_flight(tmp_path: P
     envs = model.get_vec_normalize_env()
     lessons = taught(settings, own, np.random.default_rng(0))
     fitted, both = _Fitted(model.policy, envs, lessons), np.array([0, 1])
-    pupil, acted = Pupil(model.policy, envs), []
+    pupil, acted = RememberingPupil(model.policy, envs), []
     row = 0
     for length in lessons.lengths:
         pupil.reset(None)  # type: ignore[arg-type]

@@ -1,4 +1,6 @@
-"""How a policy of recurrent PPO decides, as a module that can be traced: its memory is given to it, and given back.
+"""How a policy of recurrent PPO decides: its memory is given to it, and given back.
+
+Unlike Stable-Baselines3's `predict` it can be traced, and for one observation it takes a tenth of the time.
 
 Memory is a vector of numbers, all zero when an episode begins: the LSTM's output, then its cell.
 """
@@ -7,11 +9,16 @@ from __future__ import annotations
 
 from typing import Any
 
+import gymnasium as gym
+import numpy as np
+from numpy.typing import NDArray
+
 from dq_marine.util.extras import extra_needed
 
-with extra_needed("exporting a policy", "agents"):
+with extra_needed("training", "agents"):
     import torch
     from stable_baselines3.common.policies import BasePolicy
+    from stable_baselines3.common.vec_env import VecNormalize
     from torch import Tensor, nn
 
 
@@ -39,3 +46,30 @@ class RecurrentDecision(nn.Module):
         cell = torch.sigmoid(kept) * cell + torch.sigmoid(taken) * torch.tanh(new)
         output = torch.sigmoid(told) * torch.tanh(cell)
         return policy.action_net(policy.mlp_extractor.forward_actor(output)), torch.cat([output, cell], dim=1)
+
+
+class RememberingPupil:
+    """What a policy with a memory does by now, as an agent."""
+
+    def __init__(self, policy: Any, envs: VecNormalize) -> None:
+        """Take the policy and the environments that normalise what it sees."""
+        self._decision, self._envs = RecurrentDecision(policy), envs
+        self._nothing = torch.zeros(1, self._decision.memory_size)
+        self._memory = self._nothing
+
+    def reset(self, env: gym.Env[Any, Any]) -> None:
+        """Forget the episode before."""
+        self._memory = self._nothing
+
+    def act(self, observation: Any) -> NDArray[np.float32]:
+        """Return its most likely action."""
+        seen = self._envs.normalize_obs(observation)
+        given: Any = (
+            {name: torch.as_tensor(part)[None] for name, part in seen.items()}
+            if isinstance(seen, dict)
+            else torch.as_tensor(seen)[None]
+        )
+        with torch.no_grad():
+            action, self._memory = self._decision(given, self._memory)
+        limited: NDArray[np.float32] = np.clip(action[0].numpy(), -1.0, 1.0)
+        return limited
