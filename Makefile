@@ -35,7 +35,7 @@ interop: $(VENV)/.test  ## install what CI tests besides: TorchRL, Minari, the d
 	@$(INSTALL) --editable ".[render,agents,bem,dev,interop,docs]"
 	@touch $(VENV)/.docs
 
-policies: $(VENV)/.test  ## train the policies that come with the package anew, as their presets say (about 40 minutes)
+policies: $(VENV)/.test  ## train the policies that come with the package anew, as their presets say (about an hour)
 	@for name in $(notdir $(basename $(wildcard agents/presets/[A-Z]*.toml))); do \
 		$(BIN)/dq-marine train --preset $$name --run runs/$$name --force && \
 		$(BIN)/dq-marine export runs/$$name --out agents/shipped/$$name/$$name.onnx --episodes 200 --seed 5000000 --force \

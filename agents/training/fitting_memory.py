@@ -31,7 +31,7 @@ STREAMS = 16
 LAST_RATE = 0.05
 """Of the learning rate at the end, over that at the beginning; it falls linearly."""
 
-ESTIMATES_WEIGHT = 0.1
+ESTIMATES_WEIGHT = 0.3
 """Of how far off the memory is what the teacher has found out, beside how far off the actions are."""
 
 LARGEST_GRADIENT = 0.5

@@ -32,6 +32,8 @@ def test_shipped_presets_are_valid() -> None:
         "DepthHeading",
         "Docking",
         "DynamicPositioning",
+        "Encounter",
+        "FormationKeeping",
         "ObstacleAvoidance",
         "PathFollowing",
         "PathFollowing_otter",
@@ -136,9 +138,9 @@ def test_what_is_no_preset(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInputError,
         match="no preset or file 'ddpg'; the presets are Berthing, DepthHeading, Docking, DynamicPositioning, "
-        "ObstacleAvoidance, PathFollowing, PathFollowing_otter, PipelineInspection, StationKeeping, "
-        "TerrainFollowing, TrajectoryTracking, WaypointTracking, autopilot, avoidance, crossq, dp_controller, "
-        "over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
+        "Encounter, FormationKeeping, ObstacleAvoidance, PathFollowing, PathFollowing_otter, PipelineInspection, "
+        "StationKeeping, TerrainFollowing, TrajectoryTracking, WaypointTracking, autopilot, avoidance, crossq, "
+        "dp_controller, over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"
