@@ -229,6 +229,15 @@ class ImitationSettings(Settings):
     rounds: Annotated[int, Field(ge=0, le=100)] = 0
     turns: Annotated[int, Field(ge=0)] = 0
 
+    @model_validator(mode="after")
+    def _turns_are_taken_in_rounds(self) -> Self:
+        if self.turns and not self.rounds:
+            raise ValueError(
+                f"imitation.turns = {self.turns} counts in further rounds, and imitation.rounds = 0; ask for rounds, "
+                "or leave turns out"
+            )
+        return self
+
 
 class CurriculumSettings(Settings):
     """Levels that are learned before the environment's own, one after the other.

@@ -49,9 +49,10 @@ def fit_steps(
         optimiser.step()
     policy.set_training_mode(False)
     with torch.no_grad():
-        mean, _ = _foretold(policy, _rows_of(observations, held_back))
-        missed = (mean - actions[held_back])[torch.isfinite(actions[held_back])]
-        return float(torch.mean(missed * missed))
+        told = held_back[np.isfinite(lessons.actions[held_back, 0])]
+        looked_at = told if len(told) else np.flatnonzero(np.isfinite(lessons.actions[:, 0]))
+        mean, _ = _foretold(policy, _rows_of(observations, looked_at))
+        return float(torch.nn.functional.mse_loss(mean, actions[looked_at]))
 
 
 def _batches(

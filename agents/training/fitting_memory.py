@@ -3,6 +3,10 @@
 Episodes are laid one after the other along streams, which are learned from side by side, piece by piece. What is
 remembered at the end of a piece is where the next begins, but gradients go back to the piece's beginning only
 (truncated backpropagation through time, Williams & Peng 1990, Neural Computation 2(4)).
+
+Actions alone teach slowly what to remember. Where a teacher says what it has found out, such as where a partner is that
+only ranges tell of, the memory is made to hold that, too: a layer, which is not kept, guesses it from the memory, as
+auxiliary tasks do in Mirowski et al. 2017, Learning to navigate in complex environments, ICLR.
 """
 
 from __future__ import annotations
@@ -65,20 +69,20 @@ def fit_episodes(
     """Fit the policy to the actions and the critic to the returns; return how far actions held back are missed."""
     fitted = _Fitted(policy, envs, lessons)
     order = random.permutation(len(lessons.lengths))
-    held_back, learned = np.split(order, [max(1, round(HELD_BACK * len(order)))])
+    few = max(1, round(HELD_BACK * len(order))) if len(order) > 1 else 0
+    held_back, learned = np.split(order, [few])
     periods = max(1, imitation.batch_size // STREAMS)
     optimiser = torch.optim.Adam(fitted.parameters, lr=imitation.learning_rate)
-    falling = torch.optim.lr_scheduler.LinearLR(optimiser, 1.0, LAST_RATE, imitation.epochs)
     policy.set_training_mode(True)
-    for _ in range(imitation.epochs):
+    for share in np.linspace(1.0, LAST_RATE, imitation.epochs):
+        optimiser.param_groups[0]["lr"] = float(share) * imitation.learning_rate
         for loss in fitted.losses(random.permutation(learned), periods):
             optimiser.zero_grad()
             loss.backward()  # type: ignore[no-untyped-call]
             nn.utils.clip_grad_norm_(fitted.parameters, LARGEST_GRADIENT)
             optimiser.step()
-        falling.step()
     policy.set_training_mode(False)
-    return fitted.missed(held_back if len(learned) else order, periods)
+    return fitted.missed(held_back if lessons.told_in(held_back) else order, periods)
 
 
 class _Fitted:

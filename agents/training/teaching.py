@@ -57,6 +57,11 @@ class Lessons:
     lengths: NDArray[np.int64]
     estimates: NDArray[np.float32]
 
+    def told_in(self, episodes: NDArray[np.int64]) -> bool:
+        """Whether one of the episodes has an action that is learned from; the teacher's own first ones have."""
+        ends = np.cumsum(self.lengths)
+        return any(np.isfinite(self.actions[ends[k] - self.lengths[k] : ends[k]]).any() for k in episodes)
+
     def and_also(self, others: Lessons) -> Lessons:
         """Return these and others, one after the other."""
         return Lessons(

@@ -162,3 +162,21 @@ def test_the_memory_holds_what_the_teacher_has_found_out_though_no_action_needs_
         missed[name] = float(np.mean(np.square(guessed - ends)) / np.mean(np.square(ends)))
     assert missed["told"] < 0.1
     assert missed["not told"] > 3.0 * missed["told"]
+
+
+@pytest.mark.parametrize("algorithm", ["ppo", "recurrent_ppo"])
+def test_a_single_episode_is_learned_from_and_rounds_in_which_the_teacher_never_flies_are_no_harm(
+    algorithm: str, tmp_path: Path
+) -> None:
+    own = ImitationSettings(episodes=1, epochs=2, rounds=1, turns=10**9)
+    settings = tiny(tmp_path, algorithm, 64).model_copy(update={"imitation": own})
+    model = make_model(settings, 3, tmp_path)
+    before = model.policy.action_net.weight.detach().clone()
+    assert 0.0 < imitate(model, settings, 3) < 1.0
+    assert not torch.equal(model.policy.action_net.weight, before)
+    environments_of(model).close()
+    alone = settings.model_copy(update={"imitation": ImitationSettings(episodes=1, epochs=2)})
+    model = make_model(alone, 3, tmp_path)
+    assert 0.0 < imitate(model, alone, 3) < 1.0
+    assert not torch.equal(model.policy.action_net.weight, before)
+    environments_of(model).close()

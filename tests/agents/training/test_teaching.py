@@ -7,6 +7,7 @@ from pathlib import Path
 import gymnasium as gym
 import numpy as np
 import pytest
+from pydantic import ValidationError
 from support.trainings import tiny
 
 from dq_marine.agents.controllers.baselines import ZeroAgent, estimate_of, make_baseline
@@ -17,7 +18,7 @@ from dq_marine.agents.training.teaching import taught
 
 def test_in_turns_the_teacher_is_learned_from_only_while_it_flies(tmp_path: Path) -> None:
     settings = tiny(tmp_path, "ppo", 64)
-    own = ImitationSettings(episodes=6, noise=0.0, turns=5)
+    own = ImitationSettings(episodes=6, noise=0.0, rounds=1, turns=5)
     lessons = taught(settings, own, np.random.default_rng(0), pupil=ZeroAgent(6), first=70)
     told = np.isfinite(lessons.actions).all(axis=1)
     assert (told | np.isnan(lessons.actions).all(axis=1)).all()
@@ -41,9 +42,16 @@ def test_in_turns_the_teacher_is_learned_from_only_while_it_flies(tmp_path: Path
 
 
 def test_turns_count_in_further_rounds_only(tmp_path: Path) -> None:
-    own = ImitationSettings(episodes=1, turns=5)
+    own = ImitationSettings(episodes=1, rounds=1, turns=5)
     lessons = taught(tiny(tmp_path, "ppo", 64), own, np.random.default_rng(0))
     assert np.isfinite(lessons.actions).all()
+
+
+def test_turns_without_rounds_are_refused() -> None:
+    with pytest.raises(
+        ValidationError, match=r"imitation\.turns = 5 counts in further rounds.*ask for rounds"
+    ):
+        ImitationSettings(turns=5)
 
 
 @pytest.mark.parametrize(("task", "count"), [("Rendezvous", 5), ("FormationKeeping", 8), ("Encounter", 2)])
