@@ -83,7 +83,8 @@ def end_of(vehicle, scheme, order, count, settings):
 )
 def test_the_order_is_that_of_the_method_under_every_force(scheme, order, name, monkeypatch):
     """The vehicles have damping: "gauss" is Radau's method, of order 7, whose sweeps go on to round-off here."""
-    monkeypatch.setattr(radau_sweeps, "ENDING", Ending(1e-9, 0.0, 1e-9, 0.06))
+    for ending in ("ENDING", "STIFF_ENDING"):
+        monkeypatch.setattr(radau_sweeps, ending, Ending(1e-9, 0.0, 1e-9, 0.06))
     vehicle_name, settings = FORCES[name]
     vehicle = smooth(load_vehicle(vehicle_name))
     counts = COUNTS[order]

@@ -162,7 +162,8 @@ def test_order_seven(name, monkeypatch):
     counts, measured = np.array([4, 6, 8, 12]), {}
     for early in (True, False):
         if not early:
-            monkeypatch.setattr(radau_sweeps, "ENDING", Ending(0.0, 0.0, 0.0, 0.06))
+            for ending in ("ENDING", "STIFF_ENDING"):
+                monkeypatch.setattr(radau_sweeps, ending, Ending(0.0, 0.0, 0.0, 0.06))
         series = []
         for count in counts:
             body = damped_body(m, 0.5 / count, **case)
