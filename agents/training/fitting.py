@@ -31,17 +31,13 @@ def fit_steps(
     """Fit the policy to the actions and the critic to the returns; return how far actions held back are missed."""
     observations, _ = policy.obs_to_tensor(envs.normalize_obs(lessons.observations))
     actions = torch.as_tensor(lessons.actions)
-    scale = np.sqrt(envs.ret_rms.var + envs.epsilon) if envs.norm_reward else 1.0
-    returns = torch.as_tensor(np.asarray(lessons.returns / scale, dtype=np.float32))
+    returns = scaled_returns(envs, lessons)
     held_back, learned = np.split(random.permutation(len(actions)), [max(1, round(HELD_BACK * len(actions)))])
     optimiser = torch.optim.Adam(policy.parameters(), lr=imitation.learning_rate)
     policy.set_training_mode(True)
     for batch in _batches(learned, imitation, random):
-        mean, values = _foretold(policy, _rows_of(observations, batch))
-        known, told = torch.isfinite(returns[batch]), torch.isfinite(actions[batch][:, 0])
-        terms = [torch.nn.functional.mse_loss(mean[told], actions[batch][told])] if told.any() else []
-        if known.any():
-            terms.append(torch.nn.functional.mse_loss(values[known], returns[batch][known]))
+        mean, values = _foretold(policy, rows_of(observations, batch))
+        terms = terms_of_loss(mean, actions[batch], values, returns[batch])
         if not terms:
             continue
         optimiser.zero_grad()
@@ -51,7 +47,7 @@ def fit_steps(
     with torch.no_grad():
         told = held_back[np.isfinite(lessons.actions[held_back, 0])]
         looked_at = told if len(told) else np.flatnonzero(np.isfinite(lessons.actions[:, 0]))
-        mean, _ = _foretold(policy, _rows_of(observations, looked_at))
+        mean, _ = _foretold(policy, rows_of(observations, looked_at))
         return float(torch.nn.functional.mse_loss(mean, actions[looked_at]))
 
 
@@ -65,7 +61,30 @@ def _batches(
             yield order[start : start + imitation.batch_size]
 
 
-def _rows_of(observations: Any, rows: NDArray[np.int64]) -> Any:
+def scaled_returns(envs: VecNormalize, lessons: Lessons) -> torch.Tensor:
+    """Return the returns as the critic is to tell them: of rewards as the environments normalise them."""
+    scale = np.sqrt(envs.ret_rms.var + envs.epsilon) if envs.norm_reward else 1.0
+    return torch.as_tensor(np.asarray(lessons.returns / scale, dtype=np.float32))
+
+
+def terms_of_loss(
+    mean: torch.Tensor, actions: torch.Tensor, values: torch.Tensor, returns: torch.Tensor
+) -> list[torch.Tensor]:
+    """Return by how much actions and returns are missed, of each what is known; nothing of what is not known at all.
+
+    Args:
+        mean: of the policy's actions, shape (n, axes).
+        actions: of the teacher, likewise; NaN where they are not learned from.
+        values: of the critic, shape (n,).
+        returns: likewise; NaN where too little of them was flown.
+    """
+    told, known = torch.isfinite(actions[:, 0]), torch.isfinite(returns)
+    pairs = ((mean[told], actions[told]), (values[known], returns[known]))
+    return [torch.nn.functional.mse_loss(guess, right) for guess, right in pairs if len(right)]
+
+
+def rows_of(observations: Any, rows: NDArray[np.int64]) -> Any:
+    """Return some rows of observations, or of each of their parts."""
     if isinstance(observations, dict):
         return {name: values[rows] for name, values in observations.items()}
     return observations[rows]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.settings import ImitationSettings
-from dq_marine.agents.training.fitting import HELD_BACK
+from dq_marine.agents.training.fitting import HELD_BACK, rows_of, scaled_returns, terms_of_loss
 from dq_marine.agents.training.teaching import Lessons
 from dq_marine.util.extras import extra_needed
 
@@ -92,8 +92,7 @@ class _Fitted:
         self._policy, self._lengths = policy, lessons.lengths
         self._observations, _ = policy.obs_to_tensor(envs.normalize_obs(lessons.observations))
         self._actions = torch.as_tensor(lessons.actions)
-        scale = np.sqrt(envs.ret_rms.var + envs.epsilon) if envs.norm_reward else 1.0
-        self._returns = torch.as_tensor(np.asarray(lessons.returns / scale, dtype=np.float32))
+        self._returns = scaled_returns(envs, lessons)
         spread = np.maximum(lessons.estimates.std(axis=0), 1e-6)
         self._estimates = torch.as_tensor((lessons.estimates - lessons.estimates.mean(axis=0)) / spread)
         known = lessons.estimates.shape[1]
@@ -112,14 +111,12 @@ class _Fitted:
             rows, flown = torch.as_tensor(piece.rows), torch.as_tensor(piece.flown)
             mean, remembered, actor = self._means(piece, actor)
             values, critic = self._values(piece, critic)
-            actions, returns = self._actions[rows], self._returns[rows]
-            told, known = flown & torch.isfinite(actions[..., 0]), flown & torch.isfinite(returns)
-            terms = [nn.functional.mse_loss(mean[told], actions[told])] if told.any() else []
+            terms = terms_of_loss(
+                mean[flown], self._actions[rows][flown], values[flown], self._returns[rows][flown]
+            )
             if self._guess is not None:
                 off = (self._guess(remembered) - self._estimates[rows])[flown]
                 terms.append(ESTIMATES_WEIGHT * torch.mean(off * off))
-            if known.any():
-                terms.append(nn.functional.mse_loss(values[known], returns[known]))
             if terms:
                 yield sum(terms[1:], terms[0])
 
@@ -156,9 +153,7 @@ class _Fitted:
 
     def _features(self, piece: Piece, extractor: Any) -> Tensor:
         """Return what a network sees, shape (periods, streams, features)."""
-        rows = torch.as_tensor(piece.rows.ravel())
-        seen = self._observations
-        seen = {name: values[rows] for name, values in seen.items()} if isinstance(seen, dict) else seen[rows]
+        seen = rows_of(self._observations, piece.rows.ravel())
         features = BasePolicy.extract_features(self._policy, seen, extractor)
         return features.reshape(*piece.rows.shape, -1)
 

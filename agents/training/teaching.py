@@ -122,9 +122,8 @@ def taught(
         teacher_flies, terminated, truncated = pupil is None, False, False
         while not (terminated or truncated):
             wanted = np.clip(teacher.act(observation), -1.0, 1.0)
-            flown = (
-                wanted if pupil is None else pupil.act(observation)
-            )  # which keeps what it remembers up to now
+            # A pupil acts in turns of the teacher, too: what it remembers goes on.
+            flown = wanted if pupil is None else pupil.act(observation)
             if turns and random.random() < 1.0 / turns:
                 teacher_flies = not teacher_flies
             counts = teacher_flies or not turns
