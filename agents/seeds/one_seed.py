@@ -5,9 +5,9 @@ from __future__ import annotations
 import io
 import os
 import shutil
-import tarfile
 import tempfile
 import time
+import zipfile
 from pathlib import Path
 
 from rich.console import Console
@@ -76,17 +76,19 @@ def take_over(packed: bytes, run: RunFolder) -> None:
         InvalidInputError: the folder cannot be written.
     """
     with new_folder(run.path) as folder:
-        with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
-            archive.extractall(folder, filter="data")
+        with zipfile.ZipFile(
+            io.BytesIO(packed)
+        ) as archive:  # which, unlike a tar, stays within the folder in any Python
+            archive.extractall(folder)
         if run.path.exists():
             shutil.rmtree(run.path)
 
 
 def _packed(folder: Path) -> bytes:
     content = io.BytesIO()
-    with tarfile.open(fileobj=content, mode="w") as archive:  # models are compressed already
-        for path in sorted(folder.iterdir()):
-            archive.add(path, arcname=path.name)
+    with zipfile.ZipFile(content, "w") as archive:  # stored: models are compressed already
+        for path in sorted(folder.rglob("*")):
+            archive.write(path, path.relative_to(folder))
     return content.getvalue()
 
 
