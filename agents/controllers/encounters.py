@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from dq_marine.agents.controllers.autopilot import YAW, Order, seen
 from dq_marine.agents.controllers.guidance import wrapped
 from dq_marine.agents.controllers.journeys import MOTION, Journey
-from dq_marine.agents.controllers.velocity_obstacles import ON_ROUTE, CourseChoice, Others, Own, sight
+from dq_marine.agents.controllers.velocity_obstacles import ON_ROUTE, CourseChoice
+from dq_marine.agents.controllers.ways_among_vessels import Others, Own, sight
+from dq_marine.agents.environments import marine
 from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
@@ -41,7 +43,7 @@ class EncounterController(Journey):
         """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
         super().__init__(env, autopilot)
         self._speed, length = cruising_speed(self._vehicle), self._pilot.length
-        self._choice = CourseChoice()
+        self._choice = CourseChoice(marine(env).task_settings.safe_distance)
         self._periods = max(1, round(BETWEEN_CHOICES * length / self._speed / self._pilot.period))
         self._fastest = length / self._pilot.turning_radius(self._speed)
         # In lengths and in times of a length; that of three quarters of the speed stands for all of them.
