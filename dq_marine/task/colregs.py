@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from dq_marine.algebra.level import Level, level_cross, level_dot, level_length, seen_at
 from dq_marine.algebra.selection import select, smallest_normal
+from dq_marine.algebra.vector3 import bounded
 
 ABAFT = math.radians(112.5)
 """Rule 13: who comes up from more than 22.5 degrees abaft the beam overtakes; sternlights are seen from there [rad]."""
@@ -47,6 +48,30 @@ def closest_approach(offset: Level, velocity: Level) -> Nearest:
     time = max(0.0, min(LATEST, closing / max(squared, smallest_normal(squared))))
     there = (offset[0] + time * velocity[0], offset[1] + time * velocity[1])
     return Nearest(level_length(there), time)
+
+
+class Passing(NamedTuple):
+    """How far off another vessel passes [m], with the sign of `sight_turns`, and in what time [s]; negative: it has."""
+
+    distance: float
+    time: float
+
+
+def passing(offset: Level, velocity: Level, farthest: float, longest: float) -> Passing:
+    """Return how two vessels that keep course and speed pass, or have passed, as a radar plot shows it.
+
+    Args:
+        offset: from one's own vessel to the other [m].
+        velocity: of the other less one's own [m/s].
+        farthest: bound of the distance [m].
+        longest: bound of the time [s].
+    """
+    squared = level_dot(velocity, velocity)
+    squared = max(squared, smallest_normal(squared))
+    return Passing(
+        bounded(sight_turns(offset, velocity) / math.sqrt(squared), farthest),
+        bounded(-level_dot(offset, velocity) / squared, longest),
+    )
 
 
 def sight_turns(offset: Level, velocity: Level) -> float:

@@ -9,7 +9,7 @@ from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import bounded
 from dq_marine.integrator.body import Motion
-from dq_marine.task.colregs import Nearest, closest_approach, sight_turns
+from dq_marine.task.colregs import Nearest, closest_approach, passing, sight_turns
 from dq_marine.task.common import SPEED_BOUND
 from dq_marine.task.traffic import OtherVessel, moved
 
@@ -86,13 +86,22 @@ def crowding(lookout: Lookout, motion: Motion, length: float, speed: float) -> t
     return first[0] + second[0] + third[0], first[1] + second[1] + third[1]
 
 
-def shown(lookout: Lookout, measured: Motion, bow: Level, far: float) -> Any:
-    """Return what is shown of the vessels: places up to `far` [m], velocities less one's own, courses, rules.
+def shown(lookout: Lookout, measured: Motion, bow: Level, far: float, longest: float) -> Any:
+    """Return what is shown of the vessels: where they are and go, how they pass, and rules.
 
-    All are level, ahead and to starboard of `bow`, a unit vector.
+    Args:
+        lookout: of one's own vessel.
+        measured: motion of it.
+        bow: where it heads, a unit vector. Places, bearings, velocities and courses are ahead and to starboard of it.
+        far: bound of distances [m].
+        longest: bound of the times to the nearest approach [s].
     """
     a, b, c = lookout.vessels
-    return _shown(a, measured, bow, far), _shown(b, measured, bow, far), _shown(c, measured, bow, far)
+    return (
+        _shown(a, measured, bow, far, longest),
+        _shown(b, measured, bow, far, longest),
+        _shown(c, measured, bow, far, longest),
+    )
 
 
 def along_route(course: Level, motion: Motion) -> Level:
@@ -137,13 +146,18 @@ def _crowding(vessel: OtherVessel, motion: Motion, length: float, speed: float) 
     return near * near, closing * max(0.0, min(1.0, sliding))
 
 
-def _shown(vessel: OtherVessel, measured: Motion, bow: Level, far: float) -> Any:
+def _shown(vessel: OtherVessel, measured: Motion, bow: Level, far: float, longest: float) -> Any:
     offset, velocity = relative(vessel, measured)
-    speed = max(1e-9, level_length(vessel.velocity))
+    speed, distance = max(1e-9, level_length(vessel.velocity)), level_length(offset)
+    ahead, starboard = level_dot(bow, offset), level_cross(bow, offset)
+    touching = max(1e-9, distance)
     return (
-        (bounded(level_dot(bow, offset), far), bounded(level_cross(bow, offset), far)),
+        (bounded(ahead, far), bounded(starboard, far)),
+        bounded(distance, far),
+        (ahead / touching, starboard / touching),
         bounded(level_dot(bow, velocity), VESSEL_SPEED_BOUND),
         bounded(level_cross(bow, velocity), VESSEL_SPEED_BOUND),
         (level_dot(bow, vessel.velocity) / speed, level_cross(bow, vessel.velocity) / speed),
+        passing(offset, velocity, far, longest),
         (vessel.present, vessel.give_way, vessel.to_port),
     )

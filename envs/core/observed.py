@@ -35,16 +35,26 @@ def ages_shown(schedule: Schedule) -> Observed:
     return Observed(RANGE_AGES, "s", schedule.turns, OLDEST, f"time since the pings {whose}")
 
 
-def vessels_shown(count: int, far: float) -> tuple[Observed, ...]:
-    """Return what `dq_marine.task.lookout.shown` gives of so many vessels; places are bounded by `far` [m]."""
+def vessels_shown(count: int, far: float, longest: float) -> tuple[Observed, ...]:
+    """Return what `dq_marine.task.lookout.shown` gives of so many vessels, within its bounds [m, s]."""
     level = "ahead and to starboard"
     of_each = [
         (
             Observed(f"vessel_{k}_position_level", "m", 2, far, f"where vessel {k} is, {level}"),
+            Observed(f"vessel_{k}_distance", "m", 1, far, "how far that is"),
+            Observed(f"vessel_{k}_bearing_level", "", 2, 1.0, f"its bearing, {level}"),
             Observed(
                 f"vessel_{k}_velocity_level", "m/s", 2, VESSEL_SPEED_BOUND, "its velocity less one's own"
             ),
             Observed(f"vessel_{k}_course_level", "", 2, 1.0, f"its course, {level}"),
+            Observed(
+                f"vessel_{k}_passing_distance",
+                "m",
+                1,
+                far,
+                "how far off it passes, or has; less than 0 where its bearing turns to port",
+            ),
+            Observed(f"vessel_{k}_passing_time", "s", 1, longest, "until then; less than 0 once it is past"),
             Observed(
                 f"vessel_{k}_rules", "", 3, 1.0, "1 or 0: there at all; to give way to; to leave to port"
             ),

@@ -165,7 +165,7 @@ def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
         bounded(starboard, far),
         bounded(2.0 * own.way - along, far),
         (level_dot(bow, memory.course), level_cross(bow, memory.course)),
-        shown(memory.lookout, measured, bow, far),
+        shown(memory.lookout, measured, bow, far, far / own.speed),
         bounded_vector(rotate_inverse(measured.attitude, (0.0, 0.0, 1.0)), 1.0),
         observed_velocity(measured),
     )
@@ -178,7 +178,7 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
         Observed("starboard_of_route", "m", 1, far, "how far the vehicle is to starboard of the route"),
         Observed("distance_to_go", "m", 1, far, "along the route, to its end"),
         Observed("route_level", "", 2, 1.0, "where the route goes, ahead and to starboard"),
-        *vessels_shown(SLOTS, far),
+        *vessels_shown(SLOTS, far, far / cruising_speed(vehicle)),
         Observed("down_body", "", 3, 1.0, "where down is"),
         *VELOCITY,
     )

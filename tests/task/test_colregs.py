@@ -20,6 +20,7 @@ from dq_marine.task.colregs import (
     gives_way,
     leaves_to_port,
     meeting,
+    passing,
     sight_turns,
 )
 from dq_marine.task.imazu import IMAZU_CASES
@@ -116,6 +117,36 @@ def test_the_closest_approach_is_the_least_of_all_distances(bearing, far, course
     assert nearest.distance == pytest.approx(at(nearest.time), abs=1e-9)
     for later in (0.0, 0.5 * nearest.time, nearest.time + 1.0, 2.0 * nearest.time + 0.1):
         assert nearest.distance <= at(later) + 1e-9
+
+
+@given(angles, st.floats(0.0, 50.0), angles, st.floats(0.01, 3.0), st.floats(-20.0, 20.0))
+def test_how_two_pass_is_the_same_at_all_times_and_has_the_sign_of_the_turning_bearing(
+    bearing, far, course, speed, later
+):
+    offset, velocity = way(bearing, far), way(course, speed)
+    now = passing(offset, velocity, 100.0, 1e4)
+    moved = (offset[0] + later * velocity[0], offset[1] + later * velocity[1])
+    then = passing(moved, velocity, 100.0, 1e4)
+    assert then.distance == pytest.approx(now.distance, abs=1e-9)
+    assert then.time == pytest.approx(now.time - later, abs=1e-6)
+    if now.time > 0.0:
+        nearest = closest_approach(offset, velocity)
+        assert abs(now.distance) == pytest.approx(nearest.distance, abs=1e-9)
+        assert now.time == pytest.approx(nearest.time)
+    if abs(now.distance) > 1e-9:
+        assert now.distance * sight_turns(offset, velocity) > 0.0
+
+
+def test_how_two_pass_is_within_its_bounds_whatever_they_do():
+    assert passing((3.0, 4.0), (0.0, 0.0), 10.0, 10.0) == (0.0, 0.0)
+    for offset, velocity in (
+        ((1e5, 3.0), (-1e-200, 0.0)),
+        ((1e5, 3.0), (0.0, 1e-200)),
+        ((0.0, 0.0), (1.0, 0.0)),
+    ):
+        distance, time = passing(offset, velocity, 10.0, 20.0)
+        assert abs(distance) <= 10.0
+        assert abs(time) <= 20.0
 
 
 def test_of_vessels_that_keep_their_distance_it_is_that_of_now():
