@@ -164,10 +164,18 @@ class EnvironmentSettings(Settings):
 
 
 class NetworkSettings(Settings):
-    """The policy's and the critic's hidden layers."""
+    """The policy's and the critic's hidden layers.
+
+    Attributes:
+        layers: of both.
+        activation: after each.
+        set_layers: that read, before these, each of several things of a kind that are numbered in the observation, such
+            as vessels 1 to 3; whichever number they have, they are read alike. None: they are read like all the rest.
+    """
 
     layers: tuple[Count, ...] = Field(min_length=1)
     activation: Literal["tanh", "relu"]
+    set_layers: tuple[Count, ...] = ()
 
 
 class NormalisationSettings(Settings):
@@ -218,6 +226,8 @@ class ImitationSettings(Settings):
         turns: control periods, on the mean, after which policy and teacher take turns in these rounds; what the teacher
             does is then learned only while it flies. At 0 the policy flies throughout, and all is learned: a teacher
             whose integrals run away while another flies teaches nonsense there.
+        forgetful: whether the teacher forgets before each period what came before. What it does then follows from what
+            is seen alone, as what the policy does will, whoever has flown; it must be able to fly so.
     """
 
     teacher: Literal["controller", "lqr", "mpc"] = "controller"
@@ -228,6 +238,7 @@ class ImitationSettings(Settings):
     learning_rate: Positive = 1e-3
     rounds: Annotated[int, Field(ge=0, le=100)] = 0
     turns: Annotated[int, Field(ge=0)] = 0
+    forgetful: bool = False
 
     @model_validator(mode="after")
     def _turns_are_taken_in_rounds(self) -> Self:
@@ -331,6 +342,11 @@ class TrainingSettings(Settings):
                 f"privileged_critic = {list(self.privileged_critic)}, and algorithm.name = 'crossq', whose critic "
                 "takes no observations in parts; train with ppo, recurrent_ppo, sac, td3 or tqc, or leave "
                 "privileged_critic out"
+            )
+        if self.privileged_critic and self.network.set_layers:
+            raise ValueError(
+                f"privileged_critic = {list(self.privileged_critic)} makes observations of parts, which "
+                f"network.set_layers = {list(self.network.set_layers)} do not read; leave one of them out"
             )
         if PRIVILEGED_KEYWORD in {**self.environment.keywords, **self.while_learning}:
             raise ValueError(

@@ -6,7 +6,6 @@ import importlib
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-import gymnasium as gym
 import numpy as np
 
 from dq_marine.agents.algorithm_settings import (
@@ -18,6 +17,8 @@ from dq_marine.agents.algorithm_settings import (
 )
 from dq_marine.agents.environments import space_shape
 from dq_marine.agents.settings import TrainingSettings
+from dq_marine.agents.training.set_extractor import SetExtractor, things_of
+from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
 
@@ -100,21 +101,37 @@ def privileged_policy(algorithm: AlgorithmSettings) -> type[Any]:
     return found
 
 
-def keywords_of(settings: TrainingSettings, actions: gym.Space[Any]) -> dict[str, Any]:
+def keywords_of(settings: TrainingSettings, env: MarineEnv) -> dict[str, Any]:
     """Return the keywords of the algorithm's class that its settings and those of its network come to.
 
     Args:
         settings: of the training.
-        actions: the environments' space of actions.
+        env: one of the environments.
+
+    Raises:
+        InvalidInputError: layers that read numbered things alike are asked for, and the environment shows none.
     """
     algorithm, network = settings.algorithm, settings.network
     given = algorithm.model_dump(exclude={"name"})
     policy = {name: given.pop(name) for name in algorithm.OF_THE_POLICY}
-    policy |= {"net_arch": list(network.layers), "activation_fn": ACTIVATIONS[network.activation]}
+    activation = ACTIVATIONS[network.activation]
+    policy |= {"net_arch": list(network.layers), "activation_fn": activation}
+    if network.set_layers:
+        alone, kinds = things_of(env.observations)
+        policy |= {
+            "share_features_extractor": False,  # what the critic reads out of them would cost the actor's exactness
+            "features_extractor_class": SetExtractor,
+            "features_extractor_kwargs": {
+                "alone": alone,
+                "kinds": kinds,
+                "layers": network.set_layers,
+                "activation": activation,
+            },
+        }
     given["learning_rate"] = LinearSchedule(given["learning_rate"], given.pop("final_learning_rate"))
     if isinstance(algorithm, RolloutSettings):
         given["batch_size"] = settings.envs * algorithm.n_steps // given.pop("minibatches")
     if isinstance(algorithm, TD3Settings):
-        deviation = np.full(space_shape(actions), given.pop("exploration_noise"))
+        deviation = np.full(space_shape(env.action_space), given.pop("exploration_noise"))
         given["action_noise"] = NormalActionNoise(np.zeros_like(deviation), deviation)
     return {**given, "policy_kwargs": policy}

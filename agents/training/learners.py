@@ -33,7 +33,7 @@ from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
     from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
-    from stable_baselines3.common.vec_env import VecMonitor, VecNormalize
+    from stable_baselines3.common.vec_env import VecEnv, VecMonitor, VecNormalize
 
 DEVICE = "cpu"
 """Networks this small wait longer for an accelerator than they compute."""
@@ -78,7 +78,7 @@ def make_model(settings: TrainingSettings, seed: int, tensorboard: Path) -> Mode
     return model_class(settings.algorithm.name)(
         _policy(settings, envs.observation_space),
         envs,
-        **keywords_of(settings, envs.action_space),
+        **keywords_of(settings, _marine(envs).single),
         seed=seed,
         tensorboard_log=str(tensorboard),
         device=DEVICE,
@@ -94,10 +94,13 @@ def _policy(settings: TrainingSettings, space: gym.Space[Any]) -> str | type[Any
 
 def environments_of(model: Model) -> MarineVectorEnv:
     """Return the environments that a model learns in, inside their wrappers."""
-    envs = model.get_env()
+    return _marine(model.get_env())
+
+
+def _marine(envs: VecEnv | None) -> MarineVectorEnv:
     inner = envs.unwrapped if envs is not None else None
     if not isinstance(inner, MarineVecEnv):
-        raise InvalidInputError(f"{model} learns in {inner}, not in environments of dq_marine")
+        raise InvalidInputError(f"the model learns in {inner}, not in environments of dq_marine")
     return inner.marine
 
 

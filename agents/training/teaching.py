@@ -121,6 +121,8 @@ def taught(
             pupil.reset(env)
         teacher_flies, terminated, truncated = pupil is None, False, False
         while not (terminated or truncated):
+            if imitation.forgetful:
+                teacher.reset(env)
             wanted = np.clip(teacher.act(observation), -1.0, 1.0)
             # A pupil acts in turns of the teacher, too: what it remembers goes on.
             flown = wanted if pupil is None else pupil.act(observation)

@@ -26,7 +26,7 @@ from dq_marine.agents.training.algorithms import (
     model_class,
     policy_name,
 )
-from dq_marine.agents.training.learners import make_model
+from dq_marine.agents.training.learners import environments_of, make_model
 from dq_marine.agents.training.run_folder import RunFolder
 from dq_marine.agents.training.trained_policy import TrainedPolicy
 from dq_marine.agents.training.training import begin_training
@@ -62,7 +62,7 @@ def test_a_model_is_what_its_settings_say(name: str, tmp_path: Path) -> None:
     assert (rate(1.0), rate(0.0)) == (algorithm.learning_rate, algorithm.final_learning_rate)
     for field in algorithm.OF_THE_POLICY:
         assert model.policy_kwargs[field] == getattr(algorithm, field)
-    assert set(keywords_of(settings, model.action_space)["policy_kwargs"]) == {
+    assert set(keywords_of(settings, environments_of(model).single)["policy_kwargs"]) == {
         *algorithm.OF_THE_POLICY,
         "net_arch",
         "activation_fn",

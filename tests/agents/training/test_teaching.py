@@ -88,3 +88,28 @@ def test_the_partner_is_where_the_controller_says_it_is(seed: int) -> None:
         over = terminated or truncated
     env.close()
     assert np.mean(off[100:]) < 1.0
+
+
+def test_a_forgetful_teacher_does_what_follows_from_what_is_seen_alone(tmp_path: Path) -> None:
+    settings = tiny(tmp_path, "ppo", 64)
+    own = ImitationSettings(episodes=2, noise=0.0, rounds=1, forgetful=True)
+    lessons = taught(settings, own, np.random.default_rng(0), pupil=ZeroAgent(6), first=70)
+    env = make_environment(settings.environment)
+    teacher = make_baseline("controller", env, 0)
+    rows = np.split(np.arange(len(lessons.actions)), np.cumsum(lessons.lengths)[:-1])
+    for episode, own_rows in enumerate(rows):
+        env.reset(seed=70 + episode)
+        for row in np.random.default_rng(1).permutation(own_rows):  # in whichever order it is asked
+            teacher.reset(env)
+            wanted = np.clip(teacher.act(lessons.observations[row]), -1.0, 1.0)
+            np.testing.assert_array_equal(lessons.actions[row], wanted)
+    env.close()
+    remembering = taught(
+        settings,
+        own.model_copy(update={"forgetful": False}),
+        np.random.default_rng(0),
+        pupil=ZeroAgent(6),
+        first=70,
+    )
+    np.testing.assert_array_equal(remembering.observations, lessons.observations)
+    assert not np.array_equal(remembering.actions, lessons.actions)
