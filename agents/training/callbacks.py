@@ -103,7 +103,15 @@ class Evaluations(EvalCallback):
     """
 
     def __init__(
-        self, envs: VecEnv, saver: Saves, *, every: int, training_envs: int, seed: int, best: float | None
+        self,
+        envs: VecEnv,
+        saver: Saves,
+        *,
+        every: int,
+        training_envs: int,
+        seed: int,
+        best: float | None,
+        at_first: bool = False,
     ) -> None:
         """Take environments, one for each episode.
 
@@ -114,6 +122,7 @@ class Evaluations(EvalCallback):
             training_envs: how many timesteps one step of the training environments counts.
             seed: of the first environment; they count up from it.
             best: mean return to beat, None if there is none yet.
+            at_first: whether what has not begun to learn is evaluated, too: a copy may be better than what it becomes.
         """
         super().__init__(
             envs,
@@ -123,10 +132,15 @@ class Evaluations(EvalCallback):
             verbose=0,
         )
         self._seed = seed
+        self._at_first = at_first
         self._metrics = metrics_in(envs)
         self._flown: list[dict[str, float]] = []
         if best is not None:
             self.best_mean_reward = best
+
+    def _on_training_start(self) -> None:
+        if self._at_first and self.num_timesteps == 0:
+            self._on_step()  # the first evaluation is due after no steps
 
     def _on_step(self) -> bool:
         self.eval_env.seed(self._seed)  # takes effect at the next reset, which begins an evaluation

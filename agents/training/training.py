@@ -182,6 +182,7 @@ def _train(
         training_envs=settings.envs,
         seed=EVALUATION_SEED,
         best=folder.progress("best").mean_return,
+        at_first=settings.imitation is not None,
     )
     _learn(model, settings, saver, evaluations, further, console, watch)
     environments_of(model).close()

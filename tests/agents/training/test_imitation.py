@@ -158,3 +158,15 @@ def test_a_teacher_that_cannot_fly_is_refused_before_anything_is_written(tmp_pat
     assert not (tmp_path / "run").exists()
     with pytest.raises(InvalidInputError, match=r"the controller reads .*give it an environment"):
         plan_of(settings, seed=0)
+
+
+def test_the_copy_is_the_best_until_what_it_becomes_is_better(tmp_path: Path) -> None:
+    """Learning may make it worse, and a run too short to be evaluated has learned next to nothing."""
+    folder = RunFolder(tmp_path / "run")
+    settings = learning(tmp_path, BRIEF.model_copy(update={"episodes": 1, "epochs": 1}))
+    begin_training(folder, settings, seed=1, console=Console(quiet=True))
+    assert settings.timesteps < settings.evaluation.every
+    best = folder.progress("best")
+    assert best.timesteps == 0
+    assert best.mean_return is not None
+    assert folder.progress("checkpoints").timesteps >= settings.timesteps
