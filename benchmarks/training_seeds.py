@@ -12,17 +12,13 @@ from __future__ import annotations
 
 import argparse
 import json
-import resource
-import subprocess
-import sys
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from suite import circumstances
+from suite import blocks, circumstances, trainings
 from suite.tables import table
 
 from dq_marine.agents.environments import make_environment, scenario_settings
@@ -31,15 +27,10 @@ from dq_marine.agents.evaluation.metrics import Metric
 from dq_marine.agents.policies import load_policy, trained_environment
 from dq_marine.agents.policy_names import policy_path, shipped_policies
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.backend.workers import usable_cores
 from dq_marine.envs.scenarios.files import load_scenario
-from dq_marine.report.machine import cpu_model, load
 from dq_marine.util.files import with_folder, write_json, write_whole
 
 PAGE = circumstances.ROOT / "docs" / "howto" / "shipped_policies.md"
-BEGIN, END = "<!-- benchmarks/training_seeds.py: {} -->\n", "<!-- end -->\n"
-UNSEEN = 5_000_000
-"""Seed of the first episode: beyond those of trainings and evaluations."""
 
 
 class Bound(NamedTuple):
@@ -76,30 +67,11 @@ class Flights:
     steady: list[float]
 
 
-def train(preset: str, seed: int, folder: Path) -> dict[str, Any]:
-    """Return the summary of a run, which is trained if it is not there, with the times that the command took."""
-    file, command_file = folder / "summary.json", folder / "command.json"
-    if not file.is_file():
-        command = [sys.executable, "-m", "dq_marine", "train", "--preset", preset, "--seed", str(seed)]
-        began, before = time.monotonic(), processor_time()
-        subprocess.run([*command, "--run", str(folder), "--force"], check=True)
-        times = {"command_s": time.monotonic() - began, "processor_s": processor_time() - before}
-        write_json(command_file, times)
-    summary: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
-    return summary | json.loads(command_file.read_text(encoding="utf-8"))
-
-
 def trained(preset: str, seed: int, runs: Path) -> tuple[Path, list[str]]:
     """Return the folder of a run, which is trained if it is not there, and its two times, as the cells of its row."""
     folder = runs / f"{preset}-{seed}"
-    run = train(preset, seed, folder)
+    run = trainings.trained(["--preset", preset, "--seed", str(seed)], folder)
     return folder, [f"{run[name]:.0f}" for name in ("command_s", "processor_s")]
-
-
-def processor_time() -> float:
-    """Return what children that have ended took of the processor [s]."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 def errors_of(episode: Episode, metric: Metric, *, steady: bool) -> Any:
@@ -111,7 +83,7 @@ def errors_of(episode: Episode, metric: Metric, *, steady: bool) -> Any:
 def flights(policy: Path, environment: EnvironmentSettings, bound: Bound, episodes: int) -> Flights:
     """Fly a policy through episodes that it has not seen."""
     env, agent = make_environment(environment), load_policy(policy)
-    flown = [fly_episode(env, agent, seed=UNSEEN + number) for number in range(episodes)]
+    flown = [fly_episode(env, agent, seed=trainings.UNSEEN + number) for number in range(episodes)]
     metrics = flown[0].metrics
 
     def root_mean_squares(*, steady: bool) -> list[float]:
@@ -154,24 +126,16 @@ def cells_of(policy: Path, bound: Bound, episodes: int, folder: Path) -> list[st
     return cells
 
 
-def successes(file: Path, policy: Path, episodes: int) -> str:
-    """Return in how many episodes a policy succeeds in what it was trained in; they stand in a file once flown."""
-    if not file.is_file():
-        env, agent = make_environment(trained_environment(policy)), load_policy(policy)
-        flown = [fly_episode(env, agent, seed=UNSEEN + number).success for number in range(episodes)]
-        write_json(with_folder(file), {"successes": sum(flown)})
-    return f"{json.loads(file.read_text(encoding='utf-8'))['successes']} of {episodes}"
-
-
 def other_presets(presets: Sequence[str], seeds: Sequence[int], episodes: int, runs: Path) -> str:
     """Return the table of the presets without a bound."""
-    name, rows = f"successes_{episodes}.json", []
+    rows = []
     for preset in presets:
-        shipped = successes(runs / f"{preset}-shipped" / name, policy_path(preset), episodes)
-        rows.append([preset, "as it ships", "", "", shipped])
+        shipped = trainings.successes(runs / f"{preset}-shipped", policy_path(preset), episodes)
+        rows.append([preset, "as it ships", "", "", f"{shipped} of {episodes}"])
         for seed in seeds:
             folder, times = trained(preset, seed, runs)
-            rows.append(["", f"seed {seed}", *times, successes(folder / name, folder, episodes)])
+            found = trainings.successes(folder, folder, episodes)
+            rows.append(["", f"seed {seed}", *times, f"{found} of {episodes}"])
     header = ["preset", "policy", "wall time [s]", "processor time [s]", "success"]
     return f"{table(header, rows)}\n"
 
@@ -203,11 +167,8 @@ def section(preset: str, seeds: Sequence[int], episodes: int, runs: Path) -> str
 def provenance(wanted: argparse.Namespace, presets: Sequence[str]) -> str:
     """Return the command for these presets, machine and versions, as a paragraph."""
     chosen = [f"--preset {one}" for one in presets] + [f"--seed {one}" for one in wanted.seed]
-    installed = ", ".join(f"{name} {version}" for name, version in circumstances.versions().items())
-    return (
-        f"`python benchmarks/training_seeds.py {' '.join(chosen)} --episodes {wanted.episodes}`\n\n"
-        f"{cpu_model()}, {usable_cores()} processors, load at the end {load()}; {installed}.\n"
-    )
+    command = f"benchmarks/training_seeds.py {' '.join(chosen)} --episodes {wanted.episodes}"
+    return blocks.provenance(command)
 
 
 def main() -> None:
@@ -227,18 +188,16 @@ def main() -> None:
     bounded = [one for one in wanted.preset if one in BOUNDS]
     if bounded:
         tables = [section(one, wanted.seed, wanted.episodes, wanted.runs) for one in bounded]
-        page = with_tables(page, "bounds", provenance(wanted, bounded), "".join(tables))
+        page = _with(page, "bounds", provenance(wanted, bounded), "".join(tables))
     others = [one for one in wanted.preset if one not in BOUNDS]
     if others:
         tables = [other_presets(others, wanted.seed, wanted.episodes, wanted.runs)]
-        page = with_tables(page, "others", provenance(wanted, others), "".join(tables))
+        page = _with(page, "others", provenance(wanted, others), "".join(tables))
     write_whole(with_folder(wanted.out), page)
 
 
-def with_tables(page: str, block: str, source: str, tables: str) -> str:
-    """Return the page with other tables between the words of a block."""
-    before, rest = page.split(BEGIN.format(block))
-    return f"{before}{BEGIN.format(block)}\n{source}\n{tables}{END}{rest.split(END, 1)[1]}"
+def _with(page: str, block: str, source: str, tables: str) -> str:
+    return blocks.with_block(page, f"benchmarks/training_seeds.py: {block}", f"{source}\n{tables}")
 
 
 if __name__ == "__main__":

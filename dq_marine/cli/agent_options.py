@@ -11,6 +11,7 @@ from typing import Any
 from dq_marine.agents.choice import common_environment
 from dq_marine.agents.environments import DEFAULT_ENVIRONMENT, scenario_settings
 from dq_marine.agents.keywords import with_changes
+from dq_marine.agents.other_algorithm import with_algorithm
 from dq_marine.agents.policies import is_exported
 from dq_marine.agents.policy_names import policy_path
 from dq_marine.agents.preset_files import read_environment, read_settings, validate_settings
@@ -177,7 +178,8 @@ def requested_training(
 
     Args:
         options: of the environment.
-        algorithm: whose preset of the same name is taken; None takes the preset's, or "ppo".
+        algorithm: whose preset of the same name is taken, for the task of `preset` if that is given; None takes the
+            preset's, or "ppo".
         preset: a name or a file's path; None takes the algorithm's.
         timesteps: in all; None keeps the preset's, and so on for the others.
         envs: environments to learn from.
@@ -191,10 +193,12 @@ def requested_training(
     source = preset or algorithm or DEFAULT_ALGORITHM
     settings = read_settings(source, TrainingSettings)
     if algorithm is not None and algorithm != settings.algorithm.name:
-        raise InvalidInputError(
-            f"--algorithm {algorithm} does not go with --preset {preset}, which is for {settings.algorithm.name}; "
-            "leave --algorithm out"
-        )
+        if preset == settings.algorithm.name:
+            raise InvalidInputError(
+                f"--algorithm {algorithm} does not go with --preset {preset}, which is another algorithm's; leave one "
+                "of them out"
+            )
+        settings = with_algorithm(settings, algorithm)
     asked = {"timesteps": timesteps, "envs": envs}
     content = settings.model_dump()
     content.update({name: value for name, value in asked.items() if value is not None})

@@ -107,7 +107,7 @@ AlgorithmOption = Annotated[
     Algorithm | None,
     typer.Option(
         "--algorithm",
-        help="Learning algorithm, with the preset of its name.",
+        help="Learning algorithm, with the preset of its name; with the preset of a task, that task by this algorithm.",
         show_default="ppo, or the preset's",
     ),
 ]

@@ -36,6 +36,7 @@ EXAMPLES = examples(
     "dq-marine train --run runs/sac --algorithm sac --seed 1",
     "dq-marine train --run runs/five --seeds 5 --processes 2",
     "dq-marine train --run runs/many --seeds 20 --distributed --address 10.0.0.1:6379",
+    "dq-marine train --run runs/waypoints --preset WaypointTracking --algorithm tqc",
     "dq-marine train --run runs/memory --algorithm recurrent_ppo",
     "dq-marine train --run runs/docking --task Docking --imitate controller",
     "dq-marine train --run runs/lessons --task Docking --level medium --curriculum easy",

@@ -1,0 +1,41 @@
+"""A task's preset with another algorithm than its own: what belongs to the task stays, the rest is the algorithm's."""
+
+from __future__ import annotations
+
+from dq_marine.agents.algorithm_settings import RolloutSettings
+from dq_marine.agents.preset_files import read_settings, validate_settings
+from dq_marine.agents.settings import IMITATING, TrainingSettings
+
+OF_THE_TASK = (
+    ("algorithm", "gamma"),
+    ("network", "set_layers"),
+    ("normalisation", "symlog"),
+    ("evaluation", "episodes"),
+)
+"""Settings within tables that belong to the task."""
+
+
+def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
+    """Return settings to learn the same with the preset that an algorithm is known by.
+
+    The environment, as it is learned in and in what it is, how far ahead returns look, which numbers of an observation
+    are read alike and the logarithm before their normalisation, lessons and what the critic sees are the task's. So is
+    the copy that learning begins with, of algorithms that can begin as one. Steps, rates and networks are the
+    algorithm's.
+
+    Args:
+        task: settings of the task, for whichever algorithm.
+        algorithm: name of another one, which is that of its preset, too.
+
+    Raises:
+        InvalidInputError: the algorithm cannot learn what the settings ask for.
+    """
+    content, of_task = read_settings(algorithm, TrainingSettings).model_dump(), task.model_dump()
+    for name in ("environment", "while_learning", "curriculum", "privileged_critic"):
+        content[name] = of_task[name]
+    for table, name in OF_THE_TASK:
+        content[table][name] = of_task[table][name]
+    if algorithm in IMITATING and isinstance(task.algorithm, RolloutSettings):
+        content["imitation"] = of_task["imitation"]
+        content["algorithm"]["log_std_init"] = task.algorithm.log_std_init
+    return validate_settings(content, TrainingSettings, source=f"what was asked for, with {algorithm}")

@@ -1,0 +1,62 @@
+"""A task's preset with another algorithm: what is learned stays the task's, how it is learned is the algorithm's."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from support.trainings import ALGORITHMS
+
+from dq_marine.agents.other_algorithm import with_algorithm
+from dq_marine.agents.preset_files import preset_names, read_settings
+from dq_marine.agents.settings import IMITATING, TrainingSettings
+from dq_marine.cli.agent_options import EnvironmentOptions, requested_training
+from dq_marine.errors import InvalidInputError
+
+TASKS = [name for name in preset_names() if name[0].isupper()]
+
+
+@pytest.mark.parametrize("task", TASKS)
+@pytest.mark.parametrize("algorithm", ALGORITHMS)
+def test_every_task_can_be_learned_by_every_algorithm(task: str, algorithm: str) -> None:
+    asked, own = read_settings(task, TrainingSettings), read_settings(algorithm, TrainingSettings)
+    made = with_algorithm(asked, algorithm)
+    assert (made.environment, made.learned_in, made.evaluated_in) == (
+        asked.environment,
+        asked.learned_in,
+        asked.evaluated_in,
+    )
+    assert made.algorithm.name == algorithm
+    assert made.algorithm.gamma == asked.algorithm.gamma
+    assert made.network.layers == own.network.layers
+    assert made.normalisation.symlog == asked.normalisation.symlog
+    assert (made.timesteps, made.envs) == (own.timesteps, own.envs)
+    imitates = algorithm in IMITATING
+    assert made.imitation == (asked.imitation if imitates else None)
+    left = {"gamma", "log_std_init"} if imitates else {"gamma"}
+    assert made.algorithm.model_dump(exclude=left) == own.algorithm.model_dump(exclude=left)
+
+
+def test_the_options_of_the_environment_come_last() -> None:
+    made = requested_training(
+        EnvironmentOptions(vehicle="rexrov"), preset="WaypointTracking", algorithm="sac"
+    )
+    asked = read_settings("WaypointTracking", TrainingSettings)
+    assert made.environment.id == asked.environment.id
+    assert made.environment.keywords == {**asked.environment.keywords, "vehicle": "rexrov"}
+    assert made.algorithm.name == "sac"
+
+
+def test_its_own_algorithm_changes_nothing() -> None:
+    asked = read_settings("Docking", TrainingSettings)
+    assert requested_training(EnvironmentOptions(), preset="Docking", algorithm="ppo") == asked
+
+
+def test_what_the_algorithm_cannot_do_is_refused(tmp_path: Path) -> None:
+    critic = read_settings("Docking", TrainingSettings).model_copy(update={"privileged_critic": ("current",)})
+    with pytest.raises(InvalidInputError, match=r"with crossq is refused:\n.*takes no observations in parts"):
+        with_algorithm(critic, "crossq")
+    with pytest.raises(
+        InvalidInputError, match=r"--algorithm ppo does not go with --preset sac, which is another"
+    ):
+        requested_training(EnvironmentOptions(), preset="sac", algorithm="ppo")
