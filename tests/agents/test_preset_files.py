@@ -137,8 +137,8 @@ def test_what_a_preset_cannot_be_based_on(
 def test_what_is_no_preset(tmp_path: Path) -> None:
     with pytest.raises(
         InvalidInputError,
-        match="no preset or file 'ddpg'; the presets are Berthing, DepthHeading, Docking, DynamicPositioning, Encounter, "
-        "FormationKeeping, ObstacleAvoidance, PathFollowing, PathFollowing_otter, PipelineInspection, "
+        match="no preset or file 'ddpg'; the presets are Berthing, DepthHeading, Docking, DynamicPositioning, "
+        "Encounter, FormationKeeping, ObstacleAvoidance, PathFollowing, PathFollowing_otter, PipelineInspection, "
         "StationKeeping, TerrainFollowing, TrajectoryTracking, WaypointTracking, autopilot, avoidance, crossq, "
         "dp_controller, over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
     ):
