@@ -76,9 +76,8 @@ def take_over(packed: bytes, run: RunFolder) -> None:
         InvalidInputError: the folder cannot be written.
     """
     with new_folder(run.path) as folder:
-        with zipfile.ZipFile(
-            io.BytesIO(packed)
-        ) as archive:  # which, unlike a tar, stays within the folder in any Python
+        # Unlike a tar, a zip stays within the folder in any Python.
+        with zipfile.ZipFile(io.BytesIO(packed)) as archive:
             archive.extractall(folder)
         if run.path.exists():
             shutil.rmtree(run.path)
