@@ -18,10 +18,9 @@ OF_THE_TASK = (
 def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
     """Return settings to learn the same with the preset that an algorithm is known by.
 
-    The environment, as it is learned in and in what it is, how far ahead returns look, which numbers of an observation
-    are read alike and the logarithm before their normalisation, lessons and what the critic sees are the task's. So is
-    the copy that learning begins with, of algorithms that can begin as one. Steps, rates and networks are the
-    algorithm's.
+    The task's are the environment and how it differs while it is learned in, how far ahead returns look, which things
+    in an observation are read alike, the logarithm before its normalisation, lessons, and what the critic sees; and the
+    copy that learning begins with, for algorithms that can begin as one. Steps, rates and networks are the algorithm's.
 
     Args:
         task: settings of the task, for whichever algorithm.
