@@ -8,13 +8,11 @@ already, and has ended, is not trained again. Writes the table of docs/howto/alg
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 from suite import blocks, circumstances, trainings
 from suite.tables import table
 
-from dq_marine.agents.policy_names import shipped_policies
 from dq_marine.util.files import write_whole
 
 PAGE = circumstances.ROOT / "docs" / "howto" / "algorithms.md"
@@ -28,23 +26,18 @@ def row(preset: str, algorithm: str, episodes: int, runs: Path) -> list[str]:
     folder = runs / f"{preset}-{algorithm}"
     run = trainings.trained(["--preset", preset, "--algorithm", algorithm], folder)
     found = trainings.successes(folder, folder, episodes)
-    times = (f"{run[name]:.0f}" for name in ("command_s", "processor_s"))
-    return [preset, algorithm, f"{run['timesteps']:,}", *times, f"{found} of {episodes}"]
+    cost = [f"{run['timesteps']:,}", *trainings.times_of(run)]
+    return [preset, algorithm, *cost, f"{found} of {episodes}"]
 
 
 def main() -> None:
     """Train, fly, and write the table into the page."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--preset", action="append", choices=list(shipped_policies()))
+    parser = trainings.options(__doc__, episodes=100)
     parser.add_argument("--algorithm", action="append", choices=ALGORITHMS)
-    parser.add_argument("--episodes", type=int, default=100)
-    parser.add_argument("--runs", type=Path, default=circumstances.ROOT / "runs")
     wanted = parser.parse_args()
     presets, algorithms = wanted.preset or DEFAULT_PRESETS, wanted.algorithm or ALGORITHMS
     rows = [row(preset, one, wanted.episodes, wanted.runs) for preset in presets for one in algorithms]
-    header = ["preset", "algorithm", "timesteps", "wall time [s]", "processor time [s]", "success"]
+    header = ["preset", "algorithm", "timesteps", *trainings.TIMES, "success"]
     chosen = [f"--preset {one}" for one in presets] + [f"--algorithm {one}" for one in algorithms]
     command = f"benchmarks/algorithms.py {' '.join(chosen)} --episodes {wanted.episodes}"
     content = f"{blocks.provenance(command)}\n{table(header, rows)}\n"

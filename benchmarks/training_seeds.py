@@ -71,7 +71,7 @@ def trained(preset: str, seed: int, runs: Path) -> tuple[Path, list[str]]:
     """Return the folder of a run, which is trained if it is not there, and its two times, as the cells of its row."""
     folder = runs / f"{preset}-{seed}"
     run = trainings.trained(["--preset", preset, "--seed", str(seed)], folder)
-    return folder, [f"{run[name]:.0f}" for name in ("command_s", "processor_s")]
+    return folder, trainings.times_of(run)
 
 
 def errors_of(episode: Episode, metric: Metric, *, steady: bool) -> Any:
@@ -136,7 +136,7 @@ def other_presets(presets: Sequence[str], seeds: Sequence[int], episodes: int, r
             folder, times = trained(preset, seed, runs)
             found = trainings.successes(folder, folder, episodes)
             rows.append(["", f"seed {seed}", *times, f"{found} of {episodes}"])
-    header = ["preset", "policy", "wall time [s]", "processor time [s]", "success"]
+    header = ["preset", "policy", *trainings.TIMES, "success"]
     return f"{table(header, rows)}\n"
 
 
@@ -152,8 +152,7 @@ def section(preset: str, seeds: Sequence[int], episodes: int, runs: Path) -> str
     position, angle = bound.errors
     header = [
         "policy",
-        "wall time [s]",
-        "processor time [s]",
+        *trainings.TIMES,
         "success",
         f"within {position:g} m and {angle:g} deg",
         "position, 95 % [m]",
@@ -173,13 +172,8 @@ def provenance(wanted: argparse.Namespace, presets: Sequence[str]) -> str:
 
 def main() -> None:
     """Train, fly, and write the tables into the page."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--preset", action="append", choices=list(shipped_policies()))
+    parser = trainings.options(__doc__, episodes=200)
     parser.add_argument("--seed", action="append", type=int)
-    parser.add_argument("--episodes", type=int, default=200)
-    parser.add_argument("--runs", type=Path, default=circumstances.ROOT / "runs")
     parser.add_argument("--out", type=Path, default=PAGE)
     wanted = parser.parse_args()
     wanted.preset = wanted.preset or list(shipped_policies())

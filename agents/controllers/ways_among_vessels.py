@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dq_marine.algebra.level import Level, level_cross, level_dot, level_length
 from dq_marine.backend.compilation import compile_function
 
 Array = NDArray[np.float64]
@@ -145,7 +146,7 @@ def _go(own: Own, speed: float, homeward: bool, wanted: float, way: Array) -> No
         way[i, ALONG_RATE], way[i, STARBOARD_RATE] = velocity
 
 
-def _offset(way: Array, others: Others, i: int, k: int) -> tuple[float, float]:
+def _offset(way: Array, others: Others, i: int, k: int) -> Level:
     """Return where another vessel is then, from where one's own is."""
     time = STEP * (i + 1)
     return (
@@ -178,13 +179,12 @@ def _free(starboard: float, way: Array, others: Others, i: int, free: float) -> 
     return True
 
 
-def _clear(offset: tuple[float, float], velocity: tuple[float, float], to_port: bool, free: float) -> bool:
+def _clear(offset: Level, velocity: Level, to_port: bool, free: float) -> bool:
     """Return whether a vessel that keeps its velocity passes well clear, and on the right side, or is past."""
-    turning = _cross(offset, velocity)
-    if offset[0] * velocity[0] + offset[1] * velocity[1] >= 0.0:
-        return offset[0] * offset[0] + offset[1] * offset[1] > free * free
-    speed = math.sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1])
-    return abs(turning) > free * speed and not (to_port and turning > 0.0)
+    if level_dot(offset, velocity) >= 0.0:
+        return level_dot(offset, offset) > free * free
+    turning = level_cross(offset, velocity)
+    return abs(turning) > free * level_length(velocity) and not (to_port and turning > 0.0)
 
 
 def _risk(way: Array, until: int, others: Others, distances: Distances) -> float:
@@ -199,7 +199,7 @@ def _risk(way: Array, until: int, others: Others, distances: Distances) -> float
             others.velocities[k, 0] - way[when, ALONG_RATE],
             others.velocities[k, 1] - way[when, STARBOARD_RATE],
         )
-        sight_turns = _cross(_offset(way, others, when, k), relative)
+        sight_turns = level_cross(_offset(way, others, when, k), relative)
         if others.to_port[k] and sight_turns > 0.0 and 0 < when < until:
             risk += ON_WRONG_SIDE
     return risk
@@ -209,12 +209,8 @@ def _nearest(way: Array, until: int, others: Others, k: int) -> tuple[float, int
     """Return the least distance to another vessel, and at which step that is."""
     least, when = math.inf, 0
     for i in range(until + 1):
-        along, starboard = _offset(way, others, i, k)
-        squared = along * along + starboard * starboard
+        offset = _offset(way, others, i, k)
+        squared = level_dot(offset, offset)
         if squared < least:
             least, when = squared, i
     return math.sqrt(least), when
-
-
-def _cross(a: tuple[float, float], b: tuple[float, float]) -> float:
-    return a[0] * b[1] - a[1] * b[0]

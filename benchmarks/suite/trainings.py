@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import resource
 import subprocess
@@ -14,7 +15,9 @@ from typing import Any
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.episodes import fly_episode
 from dq_marine.agents.policies import load_policy, trained_environment
+from dq_marine.agents.policy_names import shipped_policies
 from dq_marine.util.files import with_folder, write_json
+from suite import circumstances
 
 UNSEEN = 5_000_000
 """Seed of the first episode: beyond those of trainings and evaluations."""
@@ -31,6 +34,26 @@ def trained(options: Sequence[str], folder: Path) -> dict[str, Any]:
         write_json(command_file, times)
     summary: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     return summary | json.loads(command_file.read_text(encoding="utf-8"))
+
+
+TIMES = ("wall time [s]", "processor time [s]")
+"""What heads the cells that `times_of` returns."""
+
+
+def times_of(run: dict[str, Any]) -> list[str]:
+    """Return how long the command of a run took, and of a processor, as the cells of a row."""
+    return [f"{run[name]:.0f}" for name in ("command_s", "processor_s")]
+
+
+def options(description: str, episodes: int) -> argparse.ArgumentParser:
+    """Return a parser of what all programs that train ask for, with so many episodes by default."""
+    parser = argparse.ArgumentParser(
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--preset", action="append", choices=list(shipped_policies()))
+    parser.add_argument("--episodes", type=int, default=episodes)
+    parser.add_argument("--runs", type=Path, default=circumstances.ROOT / "runs")
+    return parser
 
 
 def processor_time() -> float:
