@@ -170,7 +170,7 @@ class NetworkSettings(Settings):
         layers: of both.
         activation: after each.
         set_layers: that read, before these, each of several things of a kind that are numbered in the observation, such
-            as vessels 1 to 3; whichever number they have, they are read alike. None: they are read like all the rest.
+            as vessels 1 to 3; whichever number they have, they are read alike. Empty: they are read like all the rest.
     """
 
     layers: tuple[Count, ...] = Field(min_length=1)
