@@ -17,7 +17,8 @@ from dq_marine.agents.algorithm_settings import (
 )
 from dq_marine.agents.environments import space_shape
 from dq_marine.agents.settings import TrainingSettings
-from dq_marine.agents.training.set_extractor import SetExtractor, things_of
+from dq_marine.agents.training.numbered_things import things_of
+from dq_marine.agents.training.set_extractor import SetExtractor
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed

@@ -10,6 +10,7 @@ from dq_marine.agents.controllers.baselines import make_baseline
 from dq_marine.agents.environments import make_environment, marine
 from dq_marine.agents.settings import EnvironmentSettings, TrainingSettings
 from dq_marine.agents.training.lessons import lessons_of
+from dq_marine.agents.training.numbered_things import check_one_part, things_of
 from dq_marine.envs.core.privileged import HIDDEN_BY, hidden_parts
 from dq_marine.errors import InvalidInputError
 
@@ -19,8 +20,8 @@ def check_can_begin(settings: TrainingSettings) -> None:
 
     Raises:
         InvalidInputError: the environment's keywords are wrong, a level of the curriculum is unknown or shows other
-            observations than the environment itself, the teacher cannot fly in it, or a critic is to see what is
-            hidden and is not.
+            observations than the environment itself, the teacher cannot fly in it, it shows no numbered things that
+            layers are to read alike, or a critic is to see what is hidden and is not.
         MissingDependencyError: a library that the teacher needs is not installed.
     """
     found = [_checked(lesson, lesson.learned_in) for lesson in lessons_of(settings)]
@@ -57,11 +58,14 @@ class _Found(NamedTuple):
 
 
 def _checked(settings: TrainingSettings, environment: EnvironmentSettings) -> _Found:
-    """Return what an environment is like in which the teacher can fly."""
+    """Return what an environment is like in which the teacher can fly and the network read what is shown."""
     env = make_environment(environment)
     try:
         if settings.imitation is not None:
             make_baseline(settings.imitation.teacher, env)
+        if settings.network.set_layers:
+            check_one_part(env.observation_space)
+            things_of(marine(env).observations)
         return _Found((env.observation_space, env.action_space), hidden_parts(marine(env)))
     finally:
         env.close()

@@ -20,10 +20,12 @@ from dq_marine.agents.deployment.onnx_policy import OnnxPolicy
 from dq_marine.agents.environments import marine
 from dq_marine.agents.settings import EnvironmentSettings, NetworkSettings, TrainingSettings
 from dq_marine.agents.training.learners import environments_of, make_model
+from dq_marine.agents.training.numbered_things import things_of
 from dq_marine.agents.training.run_folder import RunFolder
-from dq_marine.agents.training.set_extractor import SetExtractor, things_of
+from dq_marine.agents.training.set_extractor import SetExtractor
 from dq_marine.agents.training.trained_policy import TrainedPolicy
 from dq_marine.agents.training.training import begin_training
+from dq_marine.agents.tuning.tuning import plan_of
 from dq_marine.envs.core.definition import Observed
 from dq_marine.errors import InvalidInputError
 
@@ -106,6 +108,22 @@ def test_what_shows_nothing_numbered_is_refused(tmp_path: Path) -> None:
     settings = tiny(tmp_path, "ppo", 64).model_copy(update={"network": READING})
     with pytest.raises(InvalidInputError, match=r"network\.set_layers.*shows none; leave set_layers out"):
         make_model(settings, 0, tmp_path)
+
+
+def test_it_is_refused_before_anything_is_written_or_replaced(tmp_path: Path) -> None:
+    folder, console = RunFolder(tmp_path / "run"), Console(file=io.StringIO())
+    settings = tiny(tmp_path, "ppo", 64)
+    begin_training(folder, settings, seed=1, console=console)
+    before = {path: path.read_bytes() for path in folder.path.rglob("*") if path.is_file()}
+    reading = settings.model_copy(update={"network": READING})
+    with pytest.raises(InvalidInputError, match=r"network\.set_layers.*shows none; leave set_layers out"):
+        begin_training(folder, reading, force=True, console=console)
+    assert {path: path.read_bytes() for path in folder.path.rglob("*") if path.is_file()} == before
+    with pytest.raises(InvalidInputError, match=r"network\.set_layers.*shows none; leave set_layers out"):
+        begin_training(RunFolder(tmp_path / "other"), reading, console=console)
+    assert not (tmp_path / "other").exists()
+    with pytest.raises(InvalidInputError, match=r"network\.set_layers.*shows none; leave set_layers out"):
+        plan_of(reading, seed=0)
 
 
 def test_things_that_are_shown_differently_are_refused() -> None:
