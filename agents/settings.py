@@ -221,6 +221,8 @@ class ImitationSettings(Settings):
         epochs: how often what it flew is learned from.
         batch_size: of control periods; a policy that remembers learns 16 stretches side by side, each a 16th as long.
         learning_rate: of this beginning.
+        final_learning_rate: to which that falls, linearly from epoch to epoch. None keeps it as it is, or lets it fall
+            to a twentieth where the policy remembers.
         rounds: thereafter, in each of which the policy flies as many episodes itself, and learns what the teacher would
             have done there.
         turns: control periods, on the mean, after which policy and teacher take turns in these rounds; what the teacher
@@ -236,6 +238,7 @@ class ImitationSettings(Settings):
     epochs: Count = 20
     batch_size: Count = 256
     learning_rate: Positive = 1e-3
+    final_learning_rate: Positive | None = None
     rounds: Annotated[int, Field(ge=0, le=100)] = 0
     turns: Annotated[int, Field(ge=0)] = 0
     forgetful: bool = False

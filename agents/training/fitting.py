@@ -35,7 +35,8 @@ def fit_steps(
     held_back, learned = np.split(random.permutation(len(actions)), [max(1, round(HELD_BACK * len(actions)))])
     optimiser = torch.optim.Adam(policy.parameters(), lr=imitation.learning_rate)
     policy.set_training_mode(True)
-    for batch in _batches(learned, imitation, random):
+    for rate, batch in _batches(learned, imitation, random):
+        optimiser.param_groups[0]["lr"] = rate
         mean, values = _foretold(policy, rows_of(observations, batch))
         terms = terms_of_loss(mean, actions[batch], values, returns[batch])
         if not terms:
@@ -53,12 +54,13 @@ def fit_steps(
 
 def _batches(
     rows: NDArray[np.int64], imitation: ImitationSettings, random: np.random.Generator
-) -> Iterator[NDArray[np.int64]]:
-    """Yield the rows in batches, in another order in each epoch."""
-    for _ in range(imitation.epochs):
+) -> Iterator[tuple[float, NDArray[np.int64]]]:
+    """Yield the rows in batches, in another order in each epoch, each with the learning rate."""
+    last = imitation.final_learning_rate or imitation.learning_rate
+    for rate in np.linspace(imitation.learning_rate, last, imitation.epochs):
         order = random.permutation(rows)
         for start in range(0, len(order), imitation.batch_size):
-            yield order[start : start + imitation.batch_size]
+            yield float(rate), order[start : start + imitation.batch_size]
 
 
 def scaled_returns(envs: VecNormalize, lessons: Lessons) -> torch.Tensor:

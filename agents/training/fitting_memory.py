@@ -33,7 +33,7 @@ STREAMS = 16
 """Side by side: as many as make the products of matrices wide enough to be quick."""
 
 LAST_RATE = 0.05
-"""Of the learning rate at the end, over that at the beginning; it falls linearly."""
+"""Of the learning rate at the end, over that at the beginning, where settings say no other."""
 
 ESTIMATES_WEIGHT = 0.3
 """Of how far off the memory is what the teacher has found out, beside how far off the actions are."""
@@ -74,7 +74,9 @@ def fit_episodes(
     periods = max(1, imitation.batch_size // STREAMS)
     optimiser = torch.optim.Adam(fitted.parameters, lr=imitation.learning_rate)
     policy.set_training_mode(True)
-    for share in np.linspace(1.0, LAST_RATE, imitation.epochs):
+    final = imitation.final_learning_rate
+    last = LAST_RATE if final is None else final / imitation.learning_rate
+    for share in np.linspace(1.0, last, imitation.epochs):
         optimiser.param_groups[0]["lr"] = float(share) * imitation.learning_rate
         for loss in fitted.losses(random.permutation(learned), periods):
             optimiser.zero_grad()

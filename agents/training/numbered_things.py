@@ -22,8 +22,10 @@ Places = list[int]
 def things_of(observations: Iterable[Observed]) -> tuple[Places, list[list[Places]]]:
     """Return where, in an observation, is what is not numbered; and of each kind of things where each of them is.
 
+    One thing alone of a kind is read as if it were not numbered.
+
     Raises:
-        InvalidInputError: nothing is numbered, or two things of a kind are shown differently.
+        InvalidInputError: there are no two things of a kind, or two things of a kind are shown differently.
     """
     alone: Places = []
     kinds: dict[str, dict[str, list[tuple[str, int]]]] = {}
@@ -36,9 +38,14 @@ def things_of(observations: Iterable[Observed]) -> tuple[Places, list[list[Place
         else:
             thing = kinds.setdefault(found["kind"], {}).setdefault(found["number"], [])
             thing += [(found["what"], place) for place in own]
+    single = [kind for kind, things in kinds.items() if len(things) == 1]
+    for kind in single:
+        (thing,) = kinds.pop(kind).values()
+        alone += [place for _, place in thing]
+    alone.sort()
     if not kinds:
         raise InvalidInputError(
-            "network.set_layers read things that are numbered in an observation, such as vessel_1_rules and "
+            "network.set_layers read several numbered things of a kind in an observation, such as vessel_1_rules and "
             "vessel_2_rules, and this environment shows none; leave set_layers out"
         )
     for kind, things in kinds.items():

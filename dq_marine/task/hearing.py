@@ -1,7 +1,8 @@
 """A modem that hears one partner, who sends a packet as each slot begins.
 
-Packets are those of `dq_marine.task.acoustics`. Of navigations, what counts is by how much two of them differ, so
-their errors are one: drawn anew as a packet is sent, because nobody hears of it at other times.
+Packets are those of `dq_marine.task.acoustics`, and their ranges are plotted as circles of position. Of navigations,
+what counts is by how much two of them differ, so their errors are one: drawn anew as a packet is sent, because nobody
+hears of it at other times.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from dq_marine.task.acoustics import (
     slot_then,
     wandered,
 )
+from dq_marine.task.position_circles import Plot, circles_told, empty_plot, plotted
 
 FIRST_DRAWS, HEARING_DRAWS = 2, 5
 """Uniform random numbers that `first_hearing` and `disturbed` take."""
@@ -45,6 +47,7 @@ class Hearing(NamedTuple):
         error: of the range of the last packet that was sent [m].
         lost: 1 if that packet is lost, else 0.
         drift: by how much both navigations differ, in north and east [m].
+        plot: circles on which the partner may be.
     """
 
     clock: float
@@ -53,6 +56,7 @@ class Hearing(NamedTuple):
     error: float
     lost: float
     drift: Level
+    plot: Plot
 
 
 def partner_link(noise: float, dropout: float, contents: str, drift: float, slot: float) -> Link:
@@ -64,12 +68,13 @@ def first_hearing(link: Link, uniforms: tuple[float, ...], index: int) -> Hearin
     """Return a modem that has heard nothing, by `FIRST_DRAWS` uniform numbers from `index` on."""
     nothing = Message((0.0, 0.0), 0.0, (1.0, 0.0), 0.0)
     drift = wandered((0.0, 0.0), BOTH * link.drift, 0.0, uniforms, index)
-    return Hearing(0.0, Packet(0.0, 0.0, -1.0, nothing), Heard(0.0, UNHEARD, 0.0, nothing), 0.0, 0.0, drift)
+    packet, last = Packet(0.0, 0.0, -1.0, nothing), Heard(0.0, UNHEARD, 0.0, nothing)
+    return Hearing(0.0, packet, last, 0.0, 0.0, drift, empty_plot())
 
 
 def disturbed(link: Link, hearing: Hearing, uniforms: tuple[float, ...], period: float) -> Hearing:
     """Return a modem with errors drawn for a packet, by `HEARING_DRAWS` uniform numbers, if one is sent next."""
-    clock, packet, last, error, lost, drift = hearing
+    clock, packet, last, error, lost, drift, plot = hearing
     begins, _ = slot_then(link, clock, period)
     if some(begins):
         normal, _ = normal_pair(uniforms[0], uniforms[1])
@@ -79,11 +84,22 @@ def disturbed(link: Link, hearing: Hearing, uniforms: tuple[float, ...], period:
             wandered(drift, BOTH * link.drift, link.kept, uniforms, 3),
         )
         error, lost, drift = select(begins, drawn, (error, lost, drift))
-    return Hearing(clock, packet, last, error, lost, drift)
+    return Hearing(clock, packet, last, error, lost, drift, plot)
 
 
-def heard_from(link: Link, hearing: Hearing, motion: Motion, sender: Sender, period: float) -> Hearing:
-    """Return a modem some time later [s], no longer than a slot, with its motion and the partner of then."""
+def heard_from(
+    link: Link, hearing: Hearing, motion: Motion, measured: Motion, sender: Sender, period: float
+) -> Hearing:
+    """Return a modem some time later [s], no longer than a slot, with its motion and the partner of then.
+
+    Args:
+        link: with the partner.
+        hearing: the modem before.
+        motion: its own.
+        measured: likewise, as its navigation has it.
+        sender: the partner.
+        period: how much later [s].
+    """
     before = hearing.packet
     begins, clock = slot_then(link, hearing.clock, period)
     packet = Packet(before.range, before.age + period, before.due, before.message)
@@ -91,16 +107,19 @@ def heard_from(link: Link, hearing: Hearing, motion: Motion, sender: Sender, per
         sent = packet_sent(link, motion, sender, hearing.drift, hearing.error, hearing.lost)
         packet = select(begins, sent, packet)
     understood = (packet.due > 0.0) & (packet.age >= packet.due)
+    last = last_heard(hearing.last, packet, understood, period)
     return Hearing(
         clock,
         Packet(packet.range, packet.age, select(understood, -1.0, packet.due), packet.message),
-        last_heard(hearing.last, packet, understood, period),
+        last,
         hearing.error,
         hearing.lost,
         hearing.drift,
+        plotted(link, hearing.plot, understood, last, measured, period),
     )
 
 
 def partner_told(link: Link, hearing: Hearing, measured: Motion, bow: Level, far: float) -> Any:
-    """Return what is told of the partner's last packet; see `dq_marine.task.acoustics.packets_told`."""
-    return packet_told(link, hearing.last, measured.position_ned, bow, far)
+    """Return what is told of the partner: by its last packet (`acoustics.packets_told`), and by the circles."""
+    packet = packet_told(link, hearing.last, measured.position_ned, bow, far)
+    return (*packet, circles_told(hearing.plot, bow, far))

@@ -6,6 +6,7 @@ from dq_marine.envs.core.definition import Observed
 from dq_marine.task.acoustics import SENDERS, UNHEARD
 from dq_marine.task.common import SPEED_BOUND
 from dq_marine.task.lookout import VESSEL_SPEED_BOUND
+from dq_marine.task.position_circles import CIRCLES
 from dq_marine.task.ranging import Schedule
 from dq_marine.task.sensors.observing import OLDEST
 
@@ -86,5 +87,20 @@ def packets_shown(far: float, senders: int = SENDERS) -> tuple[Observed, ...]:
             Observed(f"packet_{k}_speed", "m/s", 1, SPEED_BOUND, "its speed"),
         )
         for k in range(1, senders + 1)
+    ]
+    return tuple(one for parts in of_each for one in parts)
+
+
+def circles_shown(far: float) -> tuple[Observed, ...]:
+    """Return what `dq_marine.task.position_circles.circles_told` gives; places are bounded by `far` [m]."""
+    of_each = [
+        (
+            Observed(
+                f"circle_{k}_told", "", 1, 1.0, f"1 or 0: there is a circle {k} of position, 1 the newest"
+            ),
+            Observed(f"circle_{k}_centre_level", "m", 2, far, "its centre, ahead and to starboard"),
+            Observed(f"circle_{k}_radius", "m", 1, far, "its radius"),
+        )
+        for k in range(1, CIRCLES + 1)
     ]
     return tuple(one for parts in of_each for one in parts)

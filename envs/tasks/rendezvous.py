@@ -12,7 +12,7 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import bounded, bounded_vector
 from dq_marine.checks import finite_number, one_of
-from dq_marine.envs.core.observed import packets_shown
+from dq_marine.envs.core.observed import circles_shown, packets_shown
 from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_dive_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Observed, define_task, goal_along
@@ -138,8 +138,7 @@ def parameters(settings: Any, context: EpisodeContext) -> Parameters:
 
 def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
     """Return a start about the partner, which is at the origin, with the bow about towards it, under way."""
-    distance = own.distance * (NEAREST + (1.0 - NEAREST) * uniforms[0])
-    bearing = math.tau * uniforms[1]
+    distance, bearing = own.distance * (NEAREST + (1.0 - NEAREST) * uniforms[0]), math.tau * uniforms[1]
     north, east = level_turned((-distance, 0.0), bearing)
     depth = own.depth + APART * own.distance * (2.0 * uniforms[2] - 1.0)
     heading = bearing + START_TURN * (2.0 * uniforms[3] - 1.0)
@@ -149,9 +148,9 @@ def start(own: Parameters, uniforms: tuple[float, ...]) -> Start:
 def initial_memory(own: Parameters, begun: Start, uniforms: tuple[float, ...]) -> Memory:
     """Return a new course of the partner, with nothing heard yet."""
     course = drawn((0.0, 0.0, own.depth), own.winding, uniforms, START_DRAWS)
-    here = company(partner(course, own.speed), Motion(*begun))
+    off, faster, turned = company(partner(course, own.speed), Motion(*begun))
     unheard = first_hearing(own.link, uniforms, START_DRAWS + course_draws)
-    return Memory(course, unheard, Metrics(here.distance, here.speed_error, here.course_error, 0.0))
+    return Memory(course, unheard, Metrics(off, faster, turned, 0.0))
 
 
 def sense(own: Parameters, memory: Memory, motion: Motion, uniforms: Any) -> Memory:
@@ -163,11 +162,11 @@ def update_memory(own: Parameters, memory: Memory, motion: Motion, measured: Mot
     """Return where the partner is one control period on, what has been heard of it, and for how long it is met."""
     course = onward(memory.course, own.speed * own.period)
     other = partner(course, own.speed)
-    here, now = company(other, motion), heard_from(own.link, memory.hearing, motion, other, own.period)
-    met = (here.distance < own.meeting) & (here.distance >= own.safe) & (here.course_error < COURSE_TOLERANCE)
-    met = met & (here.speed_error < SPEED_TOLERANCE * own.speed)
-    held = select(met, memory.metrics.held_time + own.period, 0.0)
-    return Memory(course, now, Metrics(here.distance, here.speed_error, here.course_error, held))
+    heard = heard_from(own.link, memory.hearing, motion, measured, other, own.period)
+    off, faster, turned = company(other, motion)
+    met = (off < own.meeting) & (off >= own.safe) & (turned < COURSE_TOLERANCE)
+    held = select(met & (faster < SPEED_TOLERANCE * own.speed), memory.metrics.held_time + own.period, 0.0)
+    return Memory(course, heard, Metrics(off, faster, turned, held))
 
 
 def observe(own: Parameters, memory: Memory, measured: Motion) -> Any:
@@ -188,6 +187,7 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     far = FAR * max(LEAST_LENGTH, vehicle.dimensions.length) * settings.distance
     return (
         *packets_shown(far, 1),
+        *circles_shown(far),
         Observed("bow_north_east", "", 2, 1.0, "where the bow points, by compass"),
         Observed("deeper_than_plan", "m", 1, far, "one's own depth less that of the partner's start"),
         Observed("down_body", "", 3, 1.0, "where down is"),

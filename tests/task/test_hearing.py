@@ -33,7 +33,7 @@ def flown(link, steps, distance=600.0, seed=0):
     hearing = first_hearing(link, tuple(random.random(FIRST_DRAWS)), 0)
     for step in range(1, steps + 1):
         hearing = disturbed(link, hearing, tuple(random.random(HEARING_DRAWS)), PERIOD)
-        hearing = heard_from(link, hearing, HERE, partner(step, distance), PERIOD)
+        hearing = heard_from(link, hearing, HERE, HERE, partner(step, distance), PERIOD)
         yield step, hearing
 
 

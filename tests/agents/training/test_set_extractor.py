@@ -51,8 +51,8 @@ def test_things_are_found_by_the_numbers_in_their_names() -> None:
         ("ship_2_on", 1),
     )
     alone, kinds = things_of(shown)
-    assert alone == [0]
-    assert kinds == [[[1, 2, 6], [3, 4, 7]], [[5]]]
+    assert alone == [0, 5], "a single thing of a kind is read as it is"
+    assert kinds == [[[1, 2, 6], [3, 4, 7]]]
 
 
 def test_every_number_of_an_encounter_is_read_once() -> None:
