@@ -9,7 +9,16 @@ from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from dq_marine.agents.strict_settings import Count, Fraction, NonNegative, Positive, Settings
+from dq_marine.agents.strict_settings import (
+    Count,
+    Fraction,
+    NonNegative,
+    Number,
+    Positive,
+    Settings,
+    Truth,
+    Whole,
+)
 
 EntropyCoefficient = Literal["auto"] | NonNegative
 
@@ -45,7 +54,7 @@ class RolloutSettings(LearnerSettings):
     ent_coef: NonNegative
     vf_coef: NonNegative
     max_grad_norm: Positive
-    log_std_init: float
+    log_std_init: Number
 
 
 class PPOSettings(RolloutSettings):
@@ -65,14 +74,14 @@ class RecurrentPPOSettings(RolloutSettings):
 
     name: Literal["recurrent_ppo"]
     lstm_hidden_size: Count
-    enable_critic_lstm: bool = True
+    enable_critic_lstm: Truth = True
 
 
 class ReplaySettings(LearnerSettings):
     """Those of algorithms that learn from all they remember."""
 
     buffer_size: Count
-    learning_starts: Annotated[int, Field(ge=0)]
+    learning_starts: Annotated[Whole, Field(ge=0)]
     batch_size: Count
     train_freq: Count
     gradient_steps: Count
@@ -111,7 +120,7 @@ class TQCSettings(ReplaySettings):
     ent_coef: EntropyCoefficient
     n_quantiles: Count
     n_critics: Count
-    top_quantiles_to_drop_per_net: Annotated[int, Field(ge=0)]
+    top_quantiles_to_drop_per_net: Annotated[Whole, Field(ge=0)]
 
     @model_validator(mode="after")
     def _some_are_kept(self) -> Self:
@@ -131,7 +140,7 @@ class CrossQSettings(ReplaySettings):
     name: Literal["crossq"]
     ent_coef: EntropyCoefficient
     policy_delay: Count
-    renorm_warmup_steps: Annotated[int, Field(ge=0)]
+    renorm_warmup_steps: Annotated[Whole, Field(ge=0)]
 
 
 AlgorithmSettings = Annotated[

@@ -7,7 +7,16 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from dq_marine.agents.algorithm_settings import AlgorithmSettings, CrossQSettings, RolloutSettings
-from dq_marine.agents.strict_settings import Count, Fraction, NonNegative, Positive, Settings
+from dq_marine.agents.strict_settings import (
+    Count,
+    Fraction,
+    NonNegative,
+    Number,
+    Positive,
+    Settings,
+    Truth,
+    Whole,
+)
 
 IMITATING = ("ppo", "recurrent_ppo")
 """Algorithms that can begin as the copy of a baseline."""
@@ -72,13 +81,13 @@ class AutopilotSettings(Settings):
 
     saturating_angle: Positive
     saturating_share: Positive
-    fastest_loop: Annotated[float, Field(gt=0.0, lt=1.0)]
+    fastest_loop: Annotated[Number, Field(gt=0.0, lt=1.0)]
     rate_gain: Positive
     angle_gain: Positive
     angle_of_fastest_rate: Positive
     integral_rate: NonNegative
     tightest_turn: Positive
-    steepest_pitch: Annotated[float, Field(gt=0.0, lt=1.5)]
+    steepest_pitch: Annotated[Number, Field(gt=0.0, lt=1.5)]
     shortest_look_ahead: Positive
     look_ahead_time: Positive
     adaptation: NonNegative
@@ -110,7 +119,7 @@ class TrajectorySettings(Settings):
     angular_velocity: Positive
     effort: Positive
     disturbance_time: Positive
-    horizon: Annotated[float, Field(gt=0.0, le=2.0)]
+    horizon: Annotated[Number, Field(gt=0.0, le=2.0)]
     iterations: Count
 
 
@@ -189,10 +198,10 @@ class NormalisationSettings(Settings):
             what lies one metre off are both told apart.
     """
 
-    observation: bool
-    reward: bool
+    observation: Truth
+    reward: Truth
     clip: Positive
-    symlog: bool = False
+    symlog: Truth = False
 
     @model_validator(mode="after")
     def _symlog_is_normalised(self) -> Self:
@@ -234,14 +243,14 @@ class ImitationSettings(Settings):
 
     teacher: Literal["controller", "lqr", "mpc"] = "controller"
     episodes: Count = 40
-    noise: Annotated[float, Field(ge=0.0, le=1.0)] = 0.1
+    noise: Annotated[Number, Field(ge=0.0, le=1.0)] = 0.1
     epochs: Count = 20
     batch_size: Count = 256
     learning_rate: Positive = 1e-3
     final_learning_rate: Positive | None = None
-    rounds: Annotated[int, Field(ge=0, le=100)] = 0
-    turns: Annotated[int, Field(ge=0)] = 0
-    forgetful: bool = False
+    rounds: Annotated[Whole, Field(ge=0, le=100)] = 0
+    turns: Annotated[Whole, Field(ge=0)] = 0
+    forgetful: Truth = False
 
     @model_validator(mode="after")
     def _turns_are_taken_in_rounds(self) -> Self:

@@ -8,7 +8,7 @@ from pydantic import Field, ValidationError, field_validator
 
 from dq_marine.agents.environments import make_environment, marine
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.agents.strict_settings import Positive, Settings
+from dq_marine.agents.strict_settings import Number, Positive, Settings, Whole
 from dq_marine.checks import shown
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
@@ -39,7 +39,7 @@ class ObservedPart(Settings):
 
     name: str
     unit: str
-    size: Annotated[int, Field(ge=1)]
+    size: Annotated[Whole, Field(ge=1)]
     bound: Positive
     input: str
 
@@ -56,8 +56,8 @@ class CommandedPart(Settings):
 
     name: str
     unit: str
-    low: float
-    high: float
+    low: Number
+    high: Number
 
 
 class PolicyDescription(Settings):
@@ -87,10 +87,10 @@ class PolicyDescription(Settings):
     observations: Annotated[tuple[ObservedPart, ...], Field(min_length=1)]
     actuation: str
     actions: Annotated[tuple[CommandedPart, ...], Field(min_length=1)]
-    memory: Annotated[int, Field(ge=0)] = 0
+    memory: Annotated[Whole, Field(ge=0)] = 0
     algorithm: str
-    seed: Annotated[int, Field(ge=0)]
-    timesteps: Annotated[int, Field(ge=0)]
+    seed: Annotated[Whole, Field(ge=0)]
+    timesteps: Annotated[Whole, Field(ge=0)]
     versions: dict[str, str]
 
     @field_validator("environment")
