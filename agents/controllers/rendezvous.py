@@ -1,4 +1,7 @@
-"""A controller that meets a partner and stays beside it: a filter, constant-bearing guidance, and the autopilot."""
+"""A controller that meets a partner and stays beside it: a filter, constant-bearing guidance, and the autopilot.
+
+It is told in the middle of an episode, too, where the partner is: by the circles of position that have been plotted.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.autopilot import Attitude, seen
+from dq_marine.agents.controllers.circle_fix import circle_fix
 from dq_marine.agents.controllers.formation_filter import turned
 from dq_marine.agents.controllers.guidance import wrapped
 from dq_marine.agents.controllers.journeys import MOTION, GuidedJourney
@@ -19,13 +23,18 @@ from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.algebra.level import Level
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
+from dq_marine.task.position_circles import CIRCLES
 
 Array = NDArray[np.float64]
 
 TOLD = ("told", "age", "range", "position_level", "deeper", "course_level", "speed")
 
-CATCHING_UP = 4.0
-"""In which the way to the place beside the partner is closed at the partner's speed, were it kept up [lengths]."""
+PLOTTED = ("told", "centre_level", "radius", "age")
+
+CATCHING_UP, BY_PLOT = 4.0, 12.0
+"""In which the way to the place beside the partner is closed at the partner's speed, were it kept up [lengths].
+
+By the plot that takes longer: it errs otherwise in each period, which a filter does not."""
 
 HASTE = 0.6
 """Largest velocity towards that place, as the partner sees it, over the partner's speed."""
@@ -50,12 +59,17 @@ DEPTH_GAIN, SINKING_GAIN = 0.6, 0.2
 
 
 class Partner(NamedTuple):
-    """Where the partner is, seen from the vehicle [m], and how it goes [m/s], in north and east."""
+    """Where the partner is, seen from the vehicle [m], and how it goes [m/s], in north and east.
+
+    Attributes:
+        catching_up: in which the way to the place beside it is closed, see `CATCHING_UP`.
+    """
 
     north: float
     east: float
     v_north: float
     v_east: float
+    catching_up: float = CATCHING_UP
 
 
 class RendezvousController(GuidedJourney):
@@ -63,6 +77,7 @@ class RendezvousController(GuidedJourney):
 
     READS: ClassVar[tuple[str, ...]] = (
         *(f"packet_1_{part}" for part in TOLD),
+        *(f"circle_{k}_{part}" for k in range(1, CIRCLES + 1) for part in PLOTTED),
         "bow_north_east",
         "deeper_than_plan",
         "partner_speed",
@@ -90,11 +105,11 @@ class RendezvousController(GuidedJourney):
         self._bow = bow
         self._hear(parts, attitude, bow)
         speed = float(parts["partner_speed"][0])
-        if self._filter is None:
+        partner = self._plotted if self._filter is None else Partner(*self._filter.likeliest.tolist())
+        if partner is None:
             wanted = turned((speed, 0.0), self._first_bow or 0.0)  # on, until something is heard
         else:
             safe, meeting = (float(parts[f"{name}_distance"][0]) for name in ("safe", "meeting"))
-            partner = Partner(*self._filter.likeliest.tolist())
             wanted = self._wanted(partner, self._velocity, safe + BESIDE * (meeting - safe), speed)
         fast = math.hypot(*wanted)
         way = turned((wanted[0] / fast, wanted[1] / fast), -bow)
@@ -116,6 +131,7 @@ class RendezvousController(GuidedJourney):
     def _forget(self) -> None:
         """Begin anew."""
         self._filter: PartnerFilter | None = None
+        self._plotted: Partner | None = None
         self._first_bow: float | None = None
         self._velocity: Level = (0.0, 0.0)
         self._side, self._bow = 1.0, 0.0
@@ -142,7 +158,7 @@ class RendezvousController(GuidedJourney):
         away = AWAY * max(0.0, beside / max(1e-9, math.hypot(ahead, starboard)) - 1.0)
         to_place = ((away - 1.0) * ahead, self._side * beside + (away - 1.0) * starboard)
         distance = max(1e-9, math.hypot(*to_place))
-        closing = min(HASTE * planned, distance * planned / (CATCHING_UP * self._pilot.length))
+        closing = min(HASTE * planned, distance * planned / (partner.catching_up * self._pilot.length))
         along = max(
             SLOWEST * planned, math.hypot(partner.v_north, partner.v_east) + closing * to_place[0] / distance
         )
@@ -158,10 +174,14 @@ class RendezvousController(GuidedJourney):
         if self._filter is not None:
             self._filter.predict(velocity, self._pilot.period)
         age, (heard, course, position) = float(parts["packet_1_age"][0]), parts["packet_1_told"] > 0.5
-        new, self._age = heard and age < self._age, age
+        joined, new, self._age = math.isinf(self._age), heard and age < self._age, age
+        own_depth = float(parts["deeper_than_plan"][0])
+        if joined and course:
+            self._plotted = self._by_plot(parts, bow)
+            self._depth = own_depth + float(parts["packet_1_deeper"][0])
+            return
         if not new:
             return
-        own_depth = float(parts["deeper_than_plan"][0])
         if course:
             off = own_depth + float(parts["packet_1_deeper"][0]) + age * self._sinking - self._depth
             self._depth += DEPTH_GAIN * off
@@ -182,3 +202,14 @@ class RendezvousController(GuidedJourney):
             self._filter = PartnerFilter(told, bow, speed, math.pi)
         else:
             self._filter.update(told, velocity)
+
+    def _by_plot(self, parts: dict[str, Array], bow: float) -> Partner:
+        """Return where the partner is by its circles of position alone, for who joins an episode under way."""
+        told = [k for k in range(1, CIRCLES + 1) if parts[f"circle_{k}_told"][0] > 0.5]
+        centres = np.array([parts[f"circle_{k}_centre_level"] for k in told], dtype=float)
+        radii, ages = (
+            np.array([float(parts[f"circle_{k}_{what}"][0]) for k in told]) for what in ("radius", "age")
+        )
+        place = turned(tuple(circle_fix(centres, radii, ages).tolist()), bow)
+        velocity = float(parts["packet_1_speed"][0]) * parts["packet_1_course_level"]
+        return Partner(*place, *turned(tuple(velocity.tolist()), bow), BY_PLOT)

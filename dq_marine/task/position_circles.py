@@ -12,42 +12,44 @@ and the partner is where the circles meet. Two meet twice; which side it is on s
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
-from dq_marine.algebra.level import Level, from_above, level_cross, level_dot
+from dq_marine.algebra.level import Level, from_above, level_cross, level_dot, level_length
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select, some
 from dq_marine.algebra.vector3 import bounded
 from dq_marine.integrator.body import Motion
-from dq_marine.task.acoustics import Heard, Link
+from dq_marine.task.acoustics import UNHEARD, Heard, Link
 
 CIRCLES = 8
-"""That are kept, of every other packet: of slots of 2 s, half a minute's."""
+"""That are kept."""
+
+SPACING = 0.25
+"""How far apart the centres of those after the newest are, at least, over the radius: all are seen from other sides."""
 
 
 class Circle(NamedTuple):
-    """Centre, seen from the vehicle, in north and east [m]; radius [m], less than 0 where there is no circle yet."""
+    """A circle of position.
+
+    Attributes:
+        centre: seen from the vehicle, in north and east [m].
+        radius: [m]; less than 0 where there is no circle yet.
+        age: time since the range was measured [s].
+    """
 
     centre: Level
     radius: float
+    age: float
 
 
-class Plot(NamedTuple):
-    """The circles.
-
-    Attributes:
-        circles: the newest first.
-        passed_over: 1 if the last packet gave none, so that the next will, else 0.
-    """
-
-    circles: tuple[Circle, Circle, Circle, Circle, Circle, Circle, Circle, Circle]
-    passed_over: float
+Plot: TypeAlias = tuple[Circle, Circle, Circle, Circle, Circle, Circle, Circle, Circle]
+"""The circles, the newest first."""
 
 
 def empty_plot() -> Plot:
     """Return a plot without circles."""
-    none = Circle((0.0, 0.0), -1.0)
-    return Plot((none, none, none, none, none, none, none, none), 1.0)
+    none = Circle((0.0, 0.0), -1.0, 0.0)
+    return (none, none, none, none, none, none, none, none)
 
 
 def plotted(link: Link, plot: Plot, heard: Any, last: Heard, measured: Motion, period: float) -> Plot:
@@ -64,21 +66,24 @@ def plotted(link: Link, plot: Plot, heard: Any, last: Heard, measured: Motion, p
     own = from_above(rotate(measured.attitude, measured.velocity.linear))
     speed = link.course_told * last.message.speed
     velocity = (speed * last.message.course[0] - own[0], speed * last.message.course[1] - own[1])
-    way = (period * velocity[0], period * velocity[1])
-    a, b, c, d, e, f, g, h = plot.circles
-    a, b, c, d = advanced(a, way), advanced(b, way), advanced(c, way), advanced(d, way)
-    e, f, g, h = advanced(e, way), advanced(f, way), advanced(g, way), advanced(h, way)
-    later = Plot((a, b, c, d, e, f, g, h), plot.passed_over)
+    a, b, c, d, e, f, g, h = plot
+    a, b = advanced(a, velocity, period), advanced(b, velocity, period)
+    c, d = advanced(c, velocity, period), advanced(d, velocity, period)
+    e, f = advanced(e, velocity, period), advanced(f, velocity, period)
+    g, h = advanced(g, velocity, period), advanced(h, velocity, period)
+    later = (a, b, c, d, e, f, g, h)
     if some(heard):
         new = circle_of(link, last, measured, velocity)
-        circles = select(plot.passed_over > 0.5, (new, a, b, c, d, e, f, g), later.circles)
-        later = select(heard, Plot(circles, 1.0 - plot.passed_over), later)
+        # The newest before it is kept where it tells more than the one before that.
+        kept = (b.radius < 0.0) | (distance_between(a, b) > SPACING * new.radius)
+        later = select(heard, select(kept, (new, a, b, c, d, e, f, g), (new, b, c, d, e, f, g, h)), later)
     return later
 
 
-def advanced(circle: Circle, way: Level) -> Circle:
-    """Return a circle whose centre has moved [m]."""
-    return Circle((circle.centre[0] + way[0], circle.centre[1] + way[1]), circle.radius)
+def advanced(circle: Circle, velocity: Level, period: float) -> Circle:
+    """Return a circle whose centre moves [m/s], some time later [s]."""
+    centre = (circle.centre[0] + period * velocity[0], circle.centre[1] + period * velocity[1])
+    return Circle(centre, circle.radius, min(UNHEARD, circle.age + period))
 
 
 def circle_of(link: Link, last: Heard, measured: Motion, velocity: Level) -> Circle:
@@ -92,12 +97,20 @@ def circle_of(link: Link, last: Heard, measured: Motion, velocity: Level) -> Cir
     """
     deeper = link.course_told * (last.message.depth - measured.position_ned[2])
     level = math.sqrt(max(0.0, last.range * last.range - deeper * deeper))
-    return Circle((last.age * velocity[0], last.age * velocity[1]), level)
+    return Circle((last.age * velocity[0], last.age * velocity[1]), level, last.age)
+
+
+def distance_between(a: Circle, b: Circle) -> float:
+    """Return how far apart the centres of two circles are [m]."""
+    return level_length((a.centre[0] - b.centre[0], a.centre[1] - b.centre[1]))
 
 
 def circles_told(plot: Plot, bow: Level, far: float) -> Any:
-    """Return of each circle 1 if there is one, else 0; its centre, ahead and to starboard; its radius: bounded [m]."""
-    a, b, c, d, e, f, g, h = plot.circles
+    """Return of each circle 1 if there is one, else 0; its centre, ahead and to starboard; its radius; its age [s].
+
+    Lengths are bounded [m].
+    """
+    a, b, c, d, e, f, g, h = plot
     return (
         (
             circle_told(a, bow, far),
@@ -122,4 +135,5 @@ def circle_told(circle: Circle, bow: Level, far: float) -> Any:
         bounded(there * level_dot(bow, circle.centre), far),
         bounded(there * level_cross(bow, circle.centre), far),
         bounded(there * circle.radius, far),
+        there * circle.age,
     )

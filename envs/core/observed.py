@@ -100,6 +100,7 @@ def circles_shown(far: float) -> tuple[Observed, ...]:
             ),
             Observed(f"circle_{k}_centre_level", "m", 2, far, "its centre, ahead and to starboard"),
             Observed(f"circle_{k}_radius", "m", 1, far, "its radius"),
+            Observed(f"circle_{k}_age", "s", 1, UNHEARD, "time since its range was measured"),
         )
         for k in range(1, CIRCLES + 1)
     ]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,7 +17,7 @@ from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import Motion
 from dq_marine.task.acoustics import Heard, Link, Message, packet_told
 from dq_marine.task.hearing import partner_link
-from dq_marine.task.position_circles import CIRCLES, Plot, circles_told, empty_plot, plotted
+from dq_marine.task.position_circles import CIRCLES, SPACING, Plot, circles_told, empty_plot, plotted
 
 PERIOD, SLOT, LATE = 0.1, 20, 3  # [s], [periods], [periods]: packets are understood so much later
 FAR = 1e3
@@ -72,7 +74,7 @@ def flown(meeting: Meeting, link: Link, periods: int) -> Plot:
     return plot
 
 
-def circles(plot: Plot, bow: tuple[float, float]) -> list[tuple[float, float, float, float]]:
+def circles(plot: Plot, bow: tuple[float, float]) -> list[tuple[float, ...]]:
     return [one for four in circles_told(plot, bow, FAR) for one in four]
 
 
@@ -88,22 +90,35 @@ def test_a_partner_that_goes_straight_on_is_where_all_circles_meet(place, veloci
     north, east = (meeting.place - meeting.own)[:2]
     ahead, starboard = bow[0] * north + bow[1] * east, bow[0] * east - bow[1] * north
     change = abs(speed * turn) * (LATE * PERIOD) ** 2
-    for told, to_centre, across, radius in circles(plot, bow):
-        assert told == 1.0
-        assert abs(math.hypot(ahead - to_centre, starboard - across) - radius) < change + 1e-9
+    shown = circles(plot, bow)
+    assert shown[0][0] == 1.0
+    for told, to_centre, across, radius, _ in shown:
+        off = abs(math.hypot(ahead - to_centre, starboard - across) - radius)
+        assert off < change + 1e-9 or not told
 
 
-def test_there_is_a_circle_for_every_other_packet_the_newest_first_and_no_more_than_are_kept():
-    for heard in range(2 * CIRCLES + 6):
-        plot = flown(Meeting([40.0, 0.0, 10.0], [0.0, 0.0], 0.0, 1.0), TELLING, heard * SLOT + LATE)
-        shown = circles(plot, (1.0, 0.0))
-        kept = min(CIRCLES, (heard + 1) // 2)
-        assert [told for told, *_ in shown] == [1.0] * kept + [0.0] * (CIRCLES - kept)
-        assert all(one == (0.0, 0.0, 0.0, 0.0) for one in shown[kept:])
-        behind = [to_centre for _, to_centre, *_ in shown[:kept]]
-        assert behind == sorted(behind, reverse=True), (
-            "where the vehicle was lies behind it, the newest nearest"
-        )
+@given(
+    st.tuples(places, places, st.floats(0.0, 20.0)), st.tuples(speeds, speeds), st.floats(-0.3, 0.3), speeds
+)
+def test_the_newest_range_is_shown_and_those_before_it_from_other_sides(place, velocity, turn, speed):
+    meeting = Meeting(list(place), list(velocity), turn, speed)
+    plot = flown(meeting, TELLING, 3 * SLOT * CIRCLES + LATE)
+    shown = circles(plot, (1.0, 0.0))
+    ages = [age for *_, age in shown if age]
+    assert ages == sorted(ages)
+    assert math.isclose(ages[0], LATE * PERIOD)
+    kept = [one for one in shown if one[0]]
+    assert kept == shown[: len(kept)]
+    for newer, older in pairwise(kept[1:]):
+        apart = math.dist(newer[1:3], older[1:3])
+        assert apart > SPACING * min(radius for _, _, _, radius, _ in kept) - 1e-9
+
+
+@pytest.mark.parametrize(("speed", "count"), [(0.0, 2), (2.0, CIRCLES)])
+def test_who_keeps_its_place_beside_the_partner_needs_two_circles(speed, count):
+    meeting = Meeting([0.0, 10.0, 10.0], [1.0, 0.0], 0.0, 1.0 + speed)
+    plot = flown(meeting, TELLING, 40 * SLOT)
+    assert sum(told for told, *_ in circles(plot, (1.0, 0.0))) == count
 
 
 @given(st.tuples(places, places, st.floats(0.0, 20.0)), st.tuples(speeds, speeds), speeds)
@@ -113,7 +128,7 @@ def test_of_a_partner_that_tells_nothing_circles_are_about_where_one_was(place, 
     ranged = math.dist(
         np.array(place) + SLOT * PERIOD * np.array([*velocity, 0.0]), (SLOT * PERIOD * speed, 0.0, 10.0)
     )
-    (told, to_centre, across, radius), *_ = circles(plot, (1.0, 0.0))
+    (told, to_centre, across, radius, _), *_ = circles(plot, (1.0, 0.0))
     assert told == 1.0
     assert math.isclose(to_centre, -15 * PERIOD * speed, abs_tol=1e-9)
     assert abs(across) < 1e-9
@@ -123,11 +138,12 @@ def test_of_a_partner_that_tells_nothing_circles_are_about_where_one_was(place, 
 def test_centres_and_radii_are_bounded_and_told_as_the_bow_sees_them():
     meeting = Meeting([40.0, 30.0, 10.0], [0.0, 0.0], 0.0, 1.0)
     plot = flown(meeting, TELLING, SLOT + LATE)
-    (_, ahead, starboard, radius), *_ = circles(plot, (0.0, 1.0))
+    (_, ahead, starboard, radius, age), *_ = circles(plot, (0.0, 1.0))
     assert math.isclose(ahead, 0.0, abs_tol=1e-12)
     assert math.isclose(starboard, LATE * PERIOD, rel_tol=1e-9), "south of a vehicle that heads east"
     assert math.isclose(radius, math.hypot(40.0 - SLOT * PERIOD, 30.0), rel_tol=1e-9)
-    told, ahead, starboard, radius = circles_told(plot, (1.0, 0.0), 0.1)[0][0]
+    assert math.isclose(age, LATE * PERIOD)
+    told, ahead, starboard, radius, _ = circles_told(plot, (1.0, 0.0), 0.1)[0][0]
     assert (told, ahead, radius) == (1.0, -0.1, 0.1)
     assert abs(starboard) < 1e-12
 
@@ -136,5 +152,5 @@ def test_the_newest_circle_and_the_packet_that_it_is_of_tell_the_same_range():
     meeting = Meeting([40.0, 30.0, 18.0], [0.0, 0.0], 0.0, 0.0)
     plot = flown(meeting, TELLING, SLOT + LATE)
     told = packet_told(TELLING, meeting.packet(), tuple(meeting.own), (1.0, 0.0), FAR)
-    (_, _, _, radius), *_ = circles(plot, (1.0, 0.0))
+    (_, _, _, radius, _), *_ = circles(plot, (1.0, 0.0))
     assert math.isclose(math.hypot(radius, told[5]), told[2], rel_tol=1e-12)
