@@ -24,13 +24,13 @@ PREFERRED, PREFERENCE = math.radians(45.0), 0.5
 """Bearing that is preferred [rad], and how much likelier it is than others, in the logarithm."""
 
 BEARINGS, STEPS = 16, 6
-"""Places on the newest circle from which places are sought; and steps of Gauss's and Newton's method to each."""
+"""Places on the newest circle from which the best is sought, and steps of Gauss's and Newton's method from each."""
 
-AT_FIRST = 0.05
-"""What each step of this method holds against moving at all [1/m^2]: circles that coincide leave places open."""
+AT_FIRST = 1.0
+"""What each step of this method holds against moving at all: circles that coincide leave all bearings open."""
 
 _BEARINGS = np.linspace(-math.pi, math.pi, BEARINGS, endpoint=False)
-_ROUND = np.stack([np.cos(_BEARINGS), np.sin(_BEARINGS)], axis=-1)
+_FARTHEST_STEP = math.pi / BEARINGS
 
 
 def circle_fix(centres: Array, radii: Array, ages: Array) -> Array:
@@ -41,29 +41,33 @@ def circle_fix(centres: Array, radii: Array, ages: Array) -> Array:
         radii: [m], shape (n,).
         ages: [s], shape (n,).
     """
-    variances = RANGE_ERROR**2 + (DRIFT * ages) ** 2
-    places = centres[0] + radii[0] * _ROUND
+    weights = 1.0 / (RANGE_ERROR**2 + (DRIFT * ages) ** 2)
+    bearings = _BEARINGS
     for _ in range(STEPS):
-        places = places - _step(places, centres, radii, variances)
-    _, off = _ways_and_errors(places, centres, radii)
-    likely = -0.5 * np.minimum(off * off / variances, FARTHEST).sum(axis=1)
+        along, off, slope = _off_circles(bearings, centres, radii)
+        step = (off * slope) @ weights / ((slope * slope) @ weights + AT_FIRST)
+        bearings = bearings - np.clip(step, -_FARTHEST_STEP, _FARTHEST_STEP)
+    along, off, _ = _off_circles(bearings, centres, radii)
+    likely = -0.5 * np.minimum(off * off * weights, FARTHEST).sum(axis=1)
+    places = centres[0] + radii[0] * along
     preferred = np.cos(np.arctan2(places[:, 1], places[:, 0]) - PREFERRED)
     best: Array = places[int(np.argmax(likely + PREFERENCE * preferred))]
     return best
 
 
-def _ways_and_errors(places: Array, centres: Array, radii: Array) -> tuple[Array, Array]:
-    """Return unit vectors from centres to places, shape (m, n, 2), and how far these are off the circles, (m, n)."""
-    ways = places[:, None] - centres
-    lengths = np.maximum(np.sqrt(ways[..., 0] ** 2 + ways[..., 1] ** 2), 1e-6)
-    return ways / lengths[..., None], lengths - radii
+def _off_circles(bearings: Array, centres: Array, radii: Array) -> tuple[Array, Array, Array]:
+    """Return for places on the newest circle what tells how far they are off all circles.
 
+    Args:
+        bearings: of the places from its centre [rad], shape (m,).
+        centres: of the circles, as for `circle_fix`.
+        radii: likewise.
 
-def _step(places: Array, centres: Array, radii: Array, variances: Array) -> Array:
-    """Return by how much a step of Gauss's and Newton's method moves places, shape (m, 2)."""
-    ways, off = _ways_and_errors(places, centres, radii)
-    x, y = ways[..., 0], ways[..., 1]
-    weights = 1.0 / variances
-    a, b, c = (x * x) @ weights + AT_FIRST, (x * y) @ weights, (y * y) @ weights + AT_FIRST
-    p, q = (x * off) @ weights, (y * off) @ weights
-    return np.stack([c * p - b * q, a * q - b * p], axis=-1) / (a * c - b * b)[:, None]
+    Returns:
+        Unit vectors to the places, shape (m, 2); how far they are off [m], and by how much more per radian, (m, n).
+    """
+    along = np.stack([np.cos(bearings), np.sin(bearings)], axis=-1)
+    ways = (centres[0] + radii[0] * along)[:, None] - centres
+    lengths = np.maximum(np.hypot(ways[..., 0], ways[..., 1]), 1e-6)
+    across = along[:, None, 0] * ways[..., 1] - along[:, None, 1] * ways[..., 0]
+    return along, lengths - radii, radii[0] * across / lengths

@@ -1,6 +1,7 @@
 """A controller that meets a partner and stays beside it: a filter, constant-bearing guidance, and the autopilot.
 
-It is told in the middle of an episode, too, where the partner is: by the circles of position that have been plotted.
+Where it joins an episode under way, it has heard too little for its filter, and goes by the circles of position that
+have been plotted.
 """
 
 from __future__ import annotations
@@ -105,7 +106,7 @@ class RendezvousController(GuidedJourney):
         self._bow = bow
         self._hear(parts, attitude, bow)
         speed = float(parts["partner_speed"][0])
-        partner = self._plotted if self._filter is None else Partner(*self._filter.likeliest.tolist())
+        partner = self._partner
         if partner is None:
             wanted = turned((speed, 0.0), self._first_bow or 0.0)  # on, until something is heard
         else:
@@ -124,9 +125,14 @@ class RendezvousController(GuidedJourney):
     @property
     def estimate(self) -> Array:
         """Where the partner is [m] and how it goes [m/s], each ahead and to starboard, and how deep [m], shape (5,)."""
-        partner = np.zeros(4) if self._filter is None else self._filter.likeliest
-        place, going = (turned((float(n), float(e)), -self._bow) for n, e in partner.reshape(2, 2))
+        north, east, v_north, v_east, _ = self._partner or Partner(0.0, 0.0, 0.0, 0.0)
+        place, going = turned((north, east), -self._bow), turned((v_north, v_east), -self._bow)
         return np.array([*place, *going, self._depth])
+
+    @property
+    def _partner(self) -> Partner | None:
+        """What is known of the partner; None where nothing is."""
+        return self._plotted if self._filter is None else Partner(*self._filter.likeliest.tolist())
 
     def _forget(self) -> None:
         """Begin anew."""
@@ -174,9 +180,9 @@ class RendezvousController(GuidedJourney):
         if self._filter is not None:
             self._filter.predict(velocity, self._pilot.period)
         age, (heard, course, position) = float(parts["packet_1_age"][0]), parts["packet_1_told"] > 0.5
-        joined, new, self._age = math.isinf(self._age), heard and age < self._age, age
+        joins, new, self._age = math.isinf(self._age), heard and age < self._age, age
         own_depth = float(parts["deeper_than_plan"][0])
-        if joined and course:
+        if course and (joins or self._plotted):
             self._plotted = self._by_plot(parts, bow)
             self._depth = own_depth + float(parts["packet_1_deeper"][0])
             return

@@ -55,18 +55,20 @@ def test_circles_that_coincide_leave_a_place_on_them(place, count):
     assert np.all(fix > 0.0), "ahead and to starboard"
 
 
-def test_a_controller_that_joins_an_episode_in_each_period_meets_its_partner():
-    """By the circles alone, as what follows from what is seen must."""
+@pytest.mark.parametrize("joins", [(80,), range(4000)], ids=["once", "in each period"])
+def test_a_controller_that_joins_an_episode_under_way_meets_its_partner(joins):
+    """By the circles alone. What it does when it joins in each period follows from what is seen then."""
     env = gym.make("dq_marine/Rendezvous-v0", level="medium")
     controller = make_baseline("controller", env, 0)
     met = 0
     for seed in range(4):
         observation, _ = env.reset(seed=6_000_000 + seed)
-        over = False
+        over, period = False, 0
         while not over:
-            controller.reset(env)
+            if period == 0 or period in joins:
+                controller.reset(env)
             observation, _, terminated, truncated, info = env.step(controller.act(observation))
-            over = terminated or truncated
+            over, period = terminated or truncated, period + 1
         met += bool(info["is_success"])
     env.close()
     assert met == 4

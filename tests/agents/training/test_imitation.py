@@ -65,6 +65,27 @@ def test_it_follows_from_the_seed(tmp_path: Path) -> None:
     assert not np.array_equal(made["one"], made["other"])
 
 
+@pytest.mark.parametrize("algorithm", ["ppo", "recurrent_ppo"])
+def test_the_rate_falls_from_epoch_to_epoch_to_the_one_that_is_asked_for(
+    tmp_path: Path, algorithm: str
+) -> None:
+    """A second epoch at next to no rate changes nothing; one at the same rate does."""
+    one = ImitationSettings(episodes=1, epochs=1, batch_size=64, learning_rate=1e-2)
+    made = {}
+    for name, own in {
+        "one": one,
+        "falling": one.model_copy(update={"epochs": 2, "final_learning_rate": 1e-9}),
+        "same": one.model_copy(update={"epochs": 2, "final_learning_rate": 1e-2}),
+    }.items():
+        settings = tiny(tmp_path, algorithm, 64).model_copy(update={"imitation": own})
+        model = make_model(settings, 3, tmp_path)
+        imitate(model, settings, 3)
+        made[name] = parameters_of(model)
+        environments_of(model).close()
+    np.testing.assert_allclose(made["falling"], made["one"], rtol=0.0, atol=1e-6)
+    assert np.abs(made["same"] - made["one"]).max() > 1e-3
+
+
 @pytest.mark.parametrize("whole", [True, False])
 def test_returns_are_discounted_sums_of_what_follows(whole: bool) -> None:
     rewards, gamma = np.random.default_rng(0).normal(size=40).tolist(), 0.8
