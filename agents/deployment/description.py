@@ -23,6 +23,9 @@ MEMORY, NEW_MEMORY = "memory", "new_memory"
 LONGEST_DESCRIPTION = 1 << 20
 """In characters; the longest of a task that ships has a few thousand."""
 
+MOST_NAMED = 3
+"""Of the observations that are missing where a policy is to fly, and of those besides, a message names so many."""
+
 WRENCH_UNITS = dict(zip(MOTIONS, 3 * ("N",) + 3 * ("N m",), strict=True))
 
 
@@ -205,7 +208,8 @@ def _named_differences(
     """Return what is missing, what is there besides, and what is there but otherwise or elsewhere."""
     missing = [name for name in wanted if name not in found]
     besides = [name for name in found if name not in wanted]
-    said = [f"no {what} {name}" for name in missing] + [f"{what} {name} besides" for name in besides]
+    said = _first([f"no {what} {name}" for name in missing], f"more {what}s missing")
+    said += _first([f"{what} {name} besides" for name in besides], f"more {what}s besides")
     for name in wanted.keys() & found.keys():
         (unit, size), (its_unit, its_size) = wanted[name], found[name]
         if (unit, size) != (its_unit, its_size):
@@ -215,3 +219,9 @@ def _named_differences(
     if not said and list(wanted) != list(found):
         said.append(f"{what}s in the order {', '.join(found)}")
     return said
+
+
+def _first(said: list[str], rest: str) -> list[str]:
+    """Return the first of what is said, and how many more there are."""
+    more = len(said) - MOST_NAMED
+    return said if more <= 1 else [*said[:MOST_NAMED], f"{more} {rest}"]

@@ -13,6 +13,7 @@ import numpy as np
 from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.evaluation.episodes import Episode, fly_episode
 from dq_marine.agents.evaluation.metrics import Metric
+from dq_marine.errors import InvalidInputError
 from dq_marine.util.parted_table import Column, PartedTable
 
 
@@ -138,7 +139,13 @@ def spread(values: Sequence[float]) -> Spread:
 
 
 def score_table(scores: Sequence[Score], notes: Sequence[str] = ()) -> PartedTable:
-    """Return the scores as a table for Rich, quantities as mean, median and 95th percentile; notes stand below."""
+    """Return the scores as a table for Rich, quantities as mean, median and 95th percentile; notes stand below.
+
+    Raises:
+        InvalidInputError: there are none.
+    """
+    if not scores:
+        raise InvalidInputError("there are no scores to show; evaluate an agent first")
     return PartedTable(
         names=[
             Column("agent", [one.agent for one in scores], style="bold"),

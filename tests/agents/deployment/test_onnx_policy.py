@@ -19,6 +19,7 @@ from dq_marine.agents.deployment.onnx_policy import OnnxPolicy
 from dq_marine.agents.deployment.seal import SEAL_KEY, UNSEALED, sealed
 from dq_marine.agents.environments import make_environment
 from dq_marine.agents.evaluation.episodes import fly_episode
+from dq_marine.agents.policy_names import policy_path
 from dq_marine.agents.settings import EnvironmentSettings
 from dq_marine.agents.training.trained_policy import TrainedPolicy
 from dq_marine.errors import InvalidInputError, MissingDependencyError
@@ -134,6 +135,15 @@ def test_an_environment_that_does_not_fit_is_refused_by_name(
     (name, value), *_ = keywords.items()
     out = ("--trajectory", tmp_path / "flight.csv")
     assert_refused(run("fly", "--policy", ppo.onnx, "--set", f"{name}={value}", *out), differing)
+
+
+def test_of_many_differences_a_few_are_named_and_the_rest_counted() -> None:
+    elsewhere = make_environment(EnvironmentSettings(id="dq_marine/Docking-v0"))
+    with pytest.raises(
+        InvalidInputError, match=r"no observation starboard_of_route; .*24 more observations missing"
+    ) as caught:
+        OnnxPolicy(policy_path("Encounter")).reset(elsewhere)
+    assert len(str(caught.value)) < 700
 
 
 def test_damaged_files_are_refused_before_they_are_read(ppo: Any, tmp_path: Path) -> None:

@@ -181,3 +181,8 @@ def test_other_environments_are_refused() -> None:
     env = gym.make("CartPole-v1")
     with pytest.raises(InvalidInputError, match="not an environment of dq_marine"):
         fly_episode(env, make_baseline("zero", env), seed=0)
+
+
+def test_no_scores_are_no_table() -> None:
+    with pytest.raises(InvalidInputError, match="no scores to show; evaluate an agent"):
+        score_table([])
