@@ -37,6 +37,7 @@ class Meeting:
         self.turn, self.speed = turn, speed
         self.own = np.array([0.0, 0.0, 10.0])
         self.heading = 0.0
+        self.nearest = math.inf
 
     def motion(self) -> Motion:
         """The vehicle's, rolled and pitched."""
@@ -52,6 +53,7 @@ class Meeting:
 
     def packet(self) -> Heard:
         """What is sent now."""
+        self.nearest = min(self.nearest, math.dist(self.place[:2], self.own[:2]))
         speed = math.hypot(*self.velocity)
         course = (self.velocity[0] / speed, self.velocity[1] / speed) if speed else (1.0, 0.0)
         message = Message((0.0, 0.0), self.place[2], course, speed)
@@ -82,7 +84,10 @@ def circles(plot: Plot, bow: tuple[float, float]) -> list[tuple[float, ...]]:
     st.tuples(places, places, st.floats(0.0, 20.0)), st.tuples(speeds, speeds), st.floats(-0.3, 0.3), speeds
 )
 def test_a_partner_that_goes_straight_on_is_where_all_circles_meet(place, velocity, turn, speed):
-    """But for what one's own velocity changed while a packet was under way."""
+    """But for what one's own velocity changed while a packet was under way.
+
+    Nearly above the partner the level distance, the root of a difference of squares, has lost half of its digits.
+    """
     meeting = Meeting(list(place), list(velocity), turn, speed)
     plot = flown(meeting, TELLING, 2 * SLOT * CIRCLES + SLOT // 2)
     motion = meeting.motion()
@@ -94,7 +99,8 @@ def test_a_partner_that_goes_straight_on_is_where_all_circles_meet(place, veloci
     assert shown[0][0] == 1.0
     for told, to_centre, across, radius, _ in shown:
         off = abs(math.hypot(ahead - to_centre, starboard - across) - radius)
-        assert off < change + 1e-9 or not told
+        lost = 4.0 * math.sqrt(np.finfo(float).eps) * math.hypot(radius, 20.0)
+        assert off < change + lost or not told
 
 
 @given(
@@ -111,7 +117,7 @@ def test_the_newest_range_is_shown_and_those_before_it_from_other_sides(place, v
     assert kept == shown[: len(kept)]
     for newer, older in pairwise(kept[1:]):
         apart = math.dist(newer[1:3], older[1:3])
-        assert apart > SPACING * min(radius for _, _, _, radius, _ in kept) - 1e-9
+        assert apart > SPACING * meeting.nearest - 1e-5
 
 
 @pytest.mark.parametrize(("speed", "count"), [(0.0, 2), (2.0, CIRCLES)])
