@@ -50,8 +50,6 @@ class SetExtractor(BaseFeaturesExtractor):
         alone = observations[:, self._alone]
         features = [alone]
         for things, reader in zip(self._kinds, self._readers, strict=True):
-            each = observations[:, things]  # shape (n, things, numbers of a thing)
-            beside = alone[:, None].expand(-1, len(things), -1)
-            read = reader(torch.cat([beside, each], dim=2))
-            features += [read.amax(dim=1), read.mean(dim=1)]
+            read = torch.stack([reader(torch.cat([alone, observations[:, one]], dim=1)) for one in things])
+            features += [read.amax(dim=0), read.mean(dim=0)]
         return torch.cat(features, dim=1)
