@@ -12,12 +12,12 @@ from pydantic import Field, model_validator
 from dq_marine.agents.strict_settings import (
     Count,
     Fraction,
+    Natural,
     NonNegative,
     Number,
     Positive,
     Settings,
     Truth,
-    Whole,
 )
 
 EntropyCoefficient = Literal["auto"] | NonNegative
@@ -81,7 +81,7 @@ class ReplaySettings(LearnerSettings):
     """Those of algorithms that learn from all they remember."""
 
     buffer_size: Count
-    learning_starts: Annotated[Whole, Field(ge=0)]
+    learning_starts: Natural
     batch_size: Count
     train_freq: Count
     gradient_steps: Count
@@ -120,7 +120,7 @@ class TQCSettings(ReplaySettings):
     ent_coef: EntropyCoefficient
     n_quantiles: Count
     n_critics: Count
-    top_quantiles_to_drop_per_net: Annotated[Whole, Field(ge=0)]
+    top_quantiles_to_drop_per_net: Natural
 
     @model_validator(mode="after")
     def _some_are_kept(self) -> Self:
@@ -140,7 +140,7 @@ class CrossQSettings(ReplaySettings):
     name: Literal["crossq"]
     ent_coef: EntropyCoefficient
     policy_delay: Count
-    renorm_warmup_steps: Annotated[Whole, Field(ge=0)]
+    renorm_warmup_steps: Natural
 
 
 AlgorithmSettings = Annotated[

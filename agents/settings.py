@@ -10,6 +10,7 @@ from dq_marine.agents.algorithm_settings import AlgorithmSettings, CrossQSetting
 from dq_marine.agents.strict_settings import (
     Count,
     Fraction,
+    Natural,
     NonNegative,
     Number,
     Positive,
@@ -249,7 +250,7 @@ class ImitationSettings(Settings):
     learning_rate: Positive = 1e-3
     final_learning_rate: Positive | None = None
     rounds: Annotated[Whole, Field(ge=0, le=100)] = 0
-    turns: Annotated[Whole, Field(ge=0)] = 0
+    turns: Natural = 0
     forgetful: Truth = False
 
     @model_validator(mode="after")

@@ -60,17 +60,12 @@ DEPTH_GAIN, SINKING_GAIN = 0.6, 0.2
 
 
 class Partner(NamedTuple):
-    """Where the partner is, seen from the vehicle [m], and how it goes [m/s], in north and east.
-
-    Attributes:
-        catching_up: in which the way to the place beside it is closed, see `CATCHING_UP`.
-    """
+    """Where the partner is, seen from the vehicle [m], and how it goes [m/s], in north and east."""
 
     north: float
     east: float
     v_north: float
     v_east: float
-    catching_up: float = CATCHING_UP
 
 
 class RendezvousController(GuidedJourney):
@@ -125,7 +120,7 @@ class RendezvousController(GuidedJourney):
     @property
     def estimate(self) -> Array:
         """Where the partner is [m] and how it goes [m/s], each ahead and to starboard, and how deep [m], shape (5,)."""
-        north, east, v_north, v_east, _ = self._partner or Partner(0.0, 0.0, 0.0, 0.0)
+        north, east, v_north, v_east = self._partner or Partner(0.0, 0.0, 0.0, 0.0)
         place, going = turned((north, east), -self._bow), turned((v_north, v_east), -self._bow)
         return np.array([*place, *going, self._depth])
 
@@ -164,7 +159,8 @@ class RendezvousController(GuidedJourney):
         away = AWAY * max(0.0, beside / max(1e-9, math.hypot(ahead, starboard)) - 1.0)
         to_place = ((away - 1.0) * ahead, self._side * beside + (away - 1.0) * starboard)
         distance = max(1e-9, math.hypot(*to_place))
-        closing = min(HASTE * planned, distance * planned / (partner.catching_up * self._pilot.length))
+        catching_up = BY_PLOT if self._filter is None else CATCHING_UP
+        closing = min(HASTE * planned, distance * planned / (catching_up * self._pilot.length))
         along = max(
             SLOWEST * planned, math.hypot(partner.v_north, partner.v_east) + closing * to_place[0] / distance
         )
@@ -193,12 +189,11 @@ class RendezvousController(GuidedJourney):
             self._depth += DEPTH_GAIN * off
             self._sinking += SINKING_GAIN * off / self._silence
             self._silence = 0.0
-        its_velocity = float(parts["packet_1_speed"][0]) * parts["packet_1_course_level"]
         told = Told(
             age,
             float(parts["packet_1_range"][0]),
             self._depth - own_depth,
-            turned(tuple(its_velocity.tolist()), bow) if course else None,
+            _told_velocity(parts, bow) if course else None,
             turned(tuple(parts["packet_1_position_level"].tolist()), bow) if position else None,
         )
         speed = float(parts["partner_speed"][0])
@@ -217,5 +212,10 @@ class RendezvousController(GuidedJourney):
             np.array([float(parts[f"circle_{k}_{what}"][0]) for k in told]) for what in ("radius", "age")
         )
         place = turned(tuple(circle_fix(centres, radii, ages).tolist()), bow)
-        velocity = float(parts["packet_1_speed"][0]) * parts["packet_1_course_level"]
-        return Partner(*place, *turned(tuple(velocity.tolist()), bow), BY_PLOT)
+        return Partner(*place, *_told_velocity(parts, bow))
+
+
+def _told_velocity(parts: dict[str, Array], bow: float) -> Level:
+    """Return what the last packet tells of the partner's velocity, in north and east [m/s]."""
+    velocity = float(parts["packet_1_speed"][0]) * parts["packet_1_course_level"]
+    return turned(tuple(velocity.tolist()), bow)

@@ -8,7 +8,7 @@ from pydantic import Field, ValidationError, field_validator
 
 from dq_marine.agents.environments import make_environment, marine
 from dq_marine.agents.settings import EnvironmentSettings
-from dq_marine.agents.strict_settings import Number, Positive, Settings, Whole
+from dq_marine.agents.strict_settings import Count, Natural, Number, Positive, Settings
 from dq_marine.checks import shown
 from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.errors import InvalidInputError
@@ -42,7 +42,7 @@ class ObservedPart(Settings):
 
     name: str
     unit: str
-    size: Annotated[Whole, Field(ge=1)]
+    size: Count
     bound: Positive
     input: str
 
@@ -90,10 +90,10 @@ class PolicyDescription(Settings):
     observations: Annotated[tuple[ObservedPart, ...], Field(min_length=1)]
     actuation: str
     actions: Annotated[tuple[CommandedPart, ...], Field(min_length=1)]
-    memory: Annotated[Whole, Field(ge=0)] = 0
+    memory: Natural = 0
     algorithm: str
-    seed: Annotated[Whole, Field(ge=0)]
-    timesteps: Annotated[Whole, Field(ge=0)]
+    seed: Natural
+    timesteps: Natural
     versions: dict[str, str]
 
     @field_validator("environment")
@@ -208,8 +208,8 @@ def _named_differences(
     """Return what is missing, what is there besides, and what is there but otherwise or elsewhere."""
     missing = [name for name in wanted if name not in found]
     besides = [name for name in found if name not in wanted]
-    said = _first([f"no {what} {name}" for name in missing], f"more {what}s missing")
-    said += _first([f"{what} {name} besides" for name in besides], f"more {what}s besides")
+    said = _named_first([f"no {what} {name}" for name in missing], f"more {what}s missing")
+    said += _named_first([f"{what} {name} besides" for name in besides], f"more {what}s besides")
     for name in wanted.keys() & found.keys():
         (unit, size), (its_unit, its_size) = wanted[name], found[name]
         if (unit, size) != (its_unit, its_size):
@@ -221,7 +221,7 @@ def _named_differences(
     return said
 
 
-def _first(said: list[str], rest: str) -> list[str]:
+def _named_first(said: list[str], rest: str) -> list[str]:
     """Return the first of what is said, and how many more there are."""
     more = len(said) - MOST_NAMED
     return said if more <= 1 else [*said[:MOST_NAMED], f"{more} {rest}"]

@@ -56,11 +56,17 @@ def _batches(
     rows: NDArray[np.int64], imitation: ImitationSettings, random: np.random.Generator
 ) -> Iterator[tuple[float, NDArray[np.int64]]]:
     """Yield the rows in batches, in another order in each epoch, each with the learning rate."""
-    last = imitation.final_learning_rate or imitation.learning_rate
-    for rate in np.linspace(imitation.learning_rate, last, imitation.epochs):
+    for rate in rates(imitation, 1.0):
         order = random.permutation(rows)
         for start in range(0, len(order), imitation.batch_size):
-            yield float(rate), order[start : start + imitation.batch_size]
+            yield rate, order[start : start + imitation.batch_size]
+
+
+def rates(imitation: ImitationSettings, last_share: float) -> Iterator[float]:
+    """Yield the learning rate of each epoch; where settings say no other, the last is so large a share of the first."""
+    first, final = imitation.learning_rate, imitation.final_learning_rate
+    for share in np.linspace(1.0, last_share if final is None else final / first, imitation.epochs):
+        yield float(share) * first
 
 
 def scaled_returns(envs: VecNormalize, lessons: Lessons) -> torch.Tensor:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.settings import ImitationSettings
-from dq_marine.agents.training.fitting import HELD_BACK, rows_of, scaled_returns, terms_of_loss
+from dq_marine.agents.training.fitting import HELD_BACK, rates, rows_of, scaled_returns, terms_of_loss
 from dq_marine.agents.training.teaching import Lessons
 from dq_marine.util.extras import extra_needed
 
@@ -74,10 +74,8 @@ def fit_episodes(
     periods = max(1, imitation.batch_size // STREAMS)
     optimiser = torch.optim.Adam(fitted.parameters, lr=imitation.learning_rate)
     policy.set_training_mode(True)
-    final = imitation.final_learning_rate
-    last = LAST_RATE if final is None else final / imitation.learning_rate
-    for share in np.linspace(1.0, last, imitation.epochs):
-        optimiser.param_groups[0]["lr"] = float(share) * imitation.learning_rate
+    for rate in rates(imitation, LAST_RATE):
+        optimiser.param_groups[0]["lr"] = rate
         for loss in fitted.losses(random.permutation(learned), periods):
             optimiser.zero_grad()
             loss.backward()  # type: ignore[no-untyped-call]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from dq_marine.envs.core.definition import Observed
 from dq_marine.task.acoustics import SENDERS, UNHEARD
 from dq_marine.task.common import SPEED_BOUND
@@ -36,72 +38,65 @@ def ages_shown(schedule: Schedule) -> Observed:
     return Observed(RANGE_AGES, "s", schedule.turns, OLDEST, f"time since the pings {whose}")
 
 
+def numbered(kind: str, count: int, shown: Callable[[int], tuple[Observed, ...]]) -> tuple[Observed, ...]:
+    """Return what is shown of several things of a kind, by names such as vessel_2_distance.
+
+    Args:
+        kind: what each is, such as "vessel".
+        count: of them; they are numbered from 1 on.
+        shown: number -> what is shown of that one, in whose names kind and number are still lacking.
+    """
+    return tuple(one._replace(name=f"{kind}_{k}_{one.name}") for k in range(1, count + 1) for one in shown(k))
+
+
 def vessels_shown(count: int, far: float, longest: float) -> tuple[Observed, ...]:
     """Return what `dq_marine.task.lookout.shown` gives of so many vessels, within its bounds [m, s]."""
     level = "ahead and to starboard"
-    of_each = [
-        (
-            Observed(f"vessel_{k}_position_level", "m", 2, far, f"where vessel {k} is, {level}"),
-            Observed(f"vessel_{k}_distance", "m", 1, far, "how far that is"),
-            Observed(f"vessel_{k}_bearing_level", "", 2, 1.0, f"its bearing, {level}"),
-            Observed(
-                f"vessel_{k}_velocity_level", "m/s", 2, VESSEL_SPEED_BOUND, "its velocity less one's own"
-            ),
-            Observed(f"vessel_{k}_course_level", "", 2, 1.0, f"its course, {level}"),
-            Observed(
-                f"vessel_{k}_passing_distance",
-                "m",
-                1,
-                far,
-                "how far off it passes, or has; less than 0 where its bearing turns to port",
-            ),
-            Observed(f"vessel_{k}_passing_time", "s", 1, longest, "until then; less than 0 once it is past"),
-            Observed(
-                f"vessel_{k}_rules", "", 3, 1.0, "1 or 0: there at all; to give way to; to leave to port"
-            ),
-        )
-        for k in range(1, count + 1)
-    ]
-    return tuple(one for parts in of_each for one in parts)
+    passing = "how far off it passes, or has; less than 0 where its bearing turns to port"
+    return numbered(
+        "vessel",
+        count,
+        lambda k: (
+            Observed("position_level", "m", 2, far, f"where vessel {k} is, {level}"),
+            Observed("distance", "m", 1, far, "how far that is"),
+            Observed("bearing_level", "", 2, 1.0, f"its bearing, {level}"),
+            Observed("velocity_level", "m/s", 2, VESSEL_SPEED_BOUND, "its velocity less one's own"),
+            Observed("course_level", "", 2, 1.0, f"its course, {level}"),
+            Observed("passing_distance", "m", 1, far, passing),
+            Observed("passing_time", "s", 1, longest, "until then; less than 0 once it is past"),
+            Observed("rules", "", 3, 1.0, "1 or 0: there at all; to give way to; to leave to port"),
+        ),
+    )
 
 
 def packets_shown(far: float, senders: int = SENDERS) -> tuple[Observed, ...]:
     """Return what `dq_marine.task.acoustics.packets_told` gives of so many; places are bounded by `far` [m]."""
     level = "ahead and to starboard"
-    of_each = [
-        (
-            Observed(
-                f"packet_{k}_told", "", 3, 1.0, f"1 or 0: {k} has been heard; tells its course; its place"
-            ),
-            Observed(f"packet_{k}_age", "s", 1, UNHEARD, "time since it was sent"),
-            Observed(f"packet_{k}_range", "m", 1, far, "range, to where the sender was then"),
-            Observed(
-                f"packet_{k}_position_level",
-                "m",
-                2,
-                far,
-                f"where it says it was, {level}, by both navigations",
-            ),
-            Observed(f"packet_{k}_deeper", "m", 1, far, "how much deeper it says it was"),
-            Observed(f"packet_{k}_course_level", "", 2, 1.0, f"its course, {level}"),
-            Observed(f"packet_{k}_speed", "m/s", 1, SPEED_BOUND, "its speed"),
-        )
-        for k in range(1, senders + 1)
-    ]
-    return tuple(one for parts in of_each for one in parts)
+    place = f"where it says it was, {level}, by both navigations"
+    return numbered(
+        "packet",
+        senders,
+        lambda k: (
+            Observed("told", "", 3, 1.0, f"1 or 0: {k} has been heard; tells its course; its place"),
+            Observed("age", "s", 1, UNHEARD, "time since it was sent"),
+            Observed("range", "m", 1, far, "range, to where the sender was then"),
+            Observed("position_level", "m", 2, far, place),
+            Observed("deeper", "m", 1, far, "how much deeper it says it was"),
+            Observed("course_level", "", 2, 1.0, f"its course, {level}"),
+            Observed("speed", "m/s", 1, SPEED_BOUND, "its speed"),
+        ),
+    )
 
 
 def circles_shown(far: float) -> tuple[Observed, ...]:
     """Return what `dq_marine.task.position_circles.circles_told` gives; places are bounded by `far` [m]."""
-    of_each = [
-        (
-            Observed(
-                f"circle_{k}_told", "", 1, 1.0, f"1 or 0: there is a circle {k} of position, 1 the newest"
-            ),
-            Observed(f"circle_{k}_centre_level", "m", 2, far, "its centre, ahead and to starboard"),
-            Observed(f"circle_{k}_radius", "m", 1, far, "its radius"),
-            Observed(f"circle_{k}_age", "s", 1, UNHEARD, "time since its range was measured"),
-        )
-        for k in range(1, CIRCLES + 1)
-    ]
-    return tuple(one for parts in of_each for one in parts)
+    return numbered(
+        "circle",
+        CIRCLES,
+        lambda k: (
+            Observed("told", "", 1, 1.0, f"1 or 0: there is a circle {k} of position, 1 the newest"),
+            Observed("centre_level", "m", 2, far, "its centre, ahead and to starboard"),
+            Observed("radius", "m", 1, far, "its radius"),
+            Observed("age", "s", 1, UNHEARD, "time since its range was measured"),
+        ),
+    )

@@ -26,7 +26,6 @@ SILENT = partner_link(0.0, 0.0, "none", 0.0, SLOT * PERIOD)
 
 speeds = st.floats(-2.0, 2.0)
 places = st.floats(-50.0, 50.0)
-angles = st.floats(-3.0, 3.0)
 
 
 class Meeting:
