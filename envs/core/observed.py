@@ -90,12 +90,19 @@ def packets_shown(far: float, senders: int = SENDERS) -> tuple[Observed, ...]:
 
 def circles_shown(far: float) -> tuple[Observed, ...]:
     """Return what `dq_marine.task.position_circles.circles_told` gives; places are bounded by `far` [m]."""
+    centre = "its centre, moved as both have gone since, ahead and to starboard"
     return numbered(
         "circle",
         CIRCLES,
         lambda k: (
-            Observed("told", "", 1, 1.0, f"1 or 0: there is a circle {k} of position, 1 the newest"),
-            Observed("centre_level", "m", 2, far, "its centre, ahead and to starboard"),
+            Observed(
+                "told",
+                "",
+                1,
+                1.0,
+                f"1 or 0: there is range {k}, 1 the newest, and a circle that the sender is on",
+            ),
+            Observed("centre_level", "m", 2, far, centre),
             Observed("radius", "m", 1, far, "its radius"),
             Observed("age", "s", 1, UNHEARD, "time since its range was measured"),
         ),
