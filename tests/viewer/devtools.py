@@ -98,9 +98,14 @@ class Page:
             time.sleep(0.05)
 
     def node(self, path: str, what: str) -> Any:
-        """A property, as a JavaScript expression, of the three.js object at a meshcat path."""
+        """A property, as a JavaScript expression, of the three.js object at a meshcat path.
+
+        It is waited for until there is something to read it of: the page draws what it is told one after the other.
+        """
         names = json.dumps(path.strip("/").split("/"))
-        return self.evaluate(f"viewer.scene_tree.find({names}).object.{what}")
+        expression = f"viewer.scene_tree.find({names}).object.{what}"
+        self.wait_until(f"({expression}, true)")
+        return self.evaluate(expression)
 
 
 @contextmanager

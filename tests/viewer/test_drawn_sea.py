@@ -37,6 +37,7 @@ def drawn(request: pytest.FixtureRequest) -> Iterator[tuple[LiveViewer, Page, Sh
         viewer.draw(snapshot(position_ned=[0.0, 0.0, 0.0], sea=sea))
         with open_page(viewer.url, ready="typeof glide === 'object'") as page:
             page.wait_until("document.getElementById('clock').textContent === '0.0 s'")
+            page.node("/world/surface", "children[0].geometry.attributes.position.count")  # it is drawn
             yield viewer, page, shape, sea
 
 
