@@ -1,7 +1,6 @@
 """A controller that meets a partner and stays beside it: a filter, constant-bearing guidance, and the autopilot.
 
-Where it joins an episode under way, it has heard too little for its filter, and goes by the circles of position that
-have been plotted.
+Where it joins an episode under way, it has heard too little for its filter, and goes by the running fix.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dq_marine.agents.controllers.autopilot import Attitude, seen
-from dq_marine.agents.controllers.circle_fix import circle_fix
 from dq_marine.agents.controllers.formation_filter import turned
 from dq_marine.agents.controllers.guidance import wrapped
 from dq_marine.agents.controllers.journeys import MOTION, GuidedJourney
@@ -24,18 +22,17 @@ from dq_marine.agents.settings import AutopilotSettings
 from dq_marine.algebra.level import Level
 from dq_marine.envs.core.marine_env import Action
 from dq_marine.envs.core.observation import Observation
-from dq_marine.task.position_circles import CIRCLES
 
 Array = NDArray[np.float64]
 
 TOLD = ("told", "age", "range", "position_level", "deeper", "course_level", "speed")
 
-PLOTTED = ("told", "centre_level", "radius", "age")
+FIX = ("told", "bearing_level", "distance")
 
-CATCHING_UP, BY_PLOT = 4.0, 12.0
+CATCHING_UP, BY_FIX = 4.0, 12.0
 """In which the way to the place beside the partner is closed at the partner's speed, were it kept up [lengths].
 
-By the plot that takes longer: it errs otherwise in each period, which a filter does not."""
+By the running fix that takes longer: it errs otherwise in each period, which a filter does not."""
 
 HASTE = 0.6
 """Largest velocity towards that place, as the partner sees it, over the partner's speed."""
@@ -73,7 +70,7 @@ class RendezvousController(GuidedJourney):
 
     READS: ClassVar[tuple[str, ...]] = (
         *(f"packet_1_{part}" for part in TOLD),
-        *(f"circle_{k}_{part}" for k in range(1, CIRCLES + 1) for part in PLOTTED),
+        *(f"fix_1_{part}" for part in FIX),
         "bow_north_east",
         "deeper_than_plan",
         "partner_speed",
@@ -127,12 +124,13 @@ class RendezvousController(GuidedJourney):
     @property
     def _partner(self) -> Partner | None:
         """What is known of the partner; None where nothing is."""
-        return self._plotted if self._filter is None else Partner(*self._filter.likeliest.tolist())
+        return self._fix if self._filter is None else Partner(*self._filter.likeliest.tolist())
 
     def _forget(self) -> None:
         """Begin anew."""
         self._filter: PartnerFilter | None = None
-        self._plotted: Partner | None = None
+        self._joined = False
+        self._fix: Partner | None = None
         self._first_bow: float | None = None
         self._velocity: Level = (0.0, 0.0)
         self._side, self._bow = 1.0, 0.0
@@ -159,7 +157,7 @@ class RendezvousController(GuidedJourney):
         away = AWAY * max(0.0, beside / max(1e-9, math.hypot(ahead, starboard)) - 1.0)
         to_place = ((away - 1.0) * ahead, self._side * beside + (away - 1.0) * starboard)
         distance = max(1e-9, math.hypot(*to_place))
-        catching_up = BY_PLOT if self._filter is None else CATCHING_UP
+        catching_up = BY_FIX if self._filter is None else CATCHING_UP
         closing = min(HASTE * planned, distance * planned / (catching_up * self._pilot.length))
         along = max(
             SLOWEST * planned, math.hypot(partner.v_north, partner.v_east) + closing * to_place[0] / distance
@@ -178,8 +176,9 @@ class RendezvousController(GuidedJourney):
         age, (heard, course, position) = float(parts["packet_1_age"][0]), parts["packet_1_told"] > 0.5
         joins, new, self._age = math.isinf(self._age), heard and age < self._age, age
         own_depth = float(parts["deeper_than_plan"][0])
-        if course and (joins or self._plotted):
-            self._plotted = self._by_plot(parts, bow)
+        self._joined |= joins and course
+        if self._joined:
+            self._fix = _fixed(parts, bow)
             self._depth = own_depth + float(parts["packet_1_deeper"][0])
             return
         if not new:
@@ -204,15 +203,13 @@ class RendezvousController(GuidedJourney):
         else:
             self._filter.update(told, velocity)
 
-    def _by_plot(self, parts: dict[str, Array], bow: float) -> Partner:
-        """Return where the partner is by its circles of position alone, for who joins an episode under way."""
-        told = [k for k in range(1, CIRCLES + 1) if parts[f"circle_{k}_told"][0] > 0.5]
-        centres = np.array([parts[f"circle_{k}_centre_level"] for k in told], dtype=float)
-        radii, ages = (
-            np.array([float(parts[f"circle_{k}_{what}"][0]) for k in told]) for what in ("radius", "age")
-        )
-        place = turned(tuple(circle_fix(centres, radii, ages).tolist()), bow)
-        return Partner(*place, *_told_velocity(parts, bow))
+
+def _fixed(parts: dict[str, Array], bow: float) -> Partner | None:
+    """Return where the partner is by the running fix, for who joins an episode under way; None where there is none."""
+    if parts["fix_1_told"][0] < 0.5:
+        return None
+    place = float(parts["fix_1_distance"][0]) * parts["fix_1_bearing_level"]
+    return Partner(*turned(tuple(place.tolist()), bow), *_told_velocity(parts, bow))
 
 
 def _told_velocity(parts: dict[str, Array], bow: float) -> Level:

@@ -28,7 +28,8 @@ from dq_marine.task.acoustics import (
     slot_then,
     wandered,
 )
-from dq_marine.task.position_circles import Plot, circles_told, empty_plot, plotted
+from dq_marine.task.position_circles import Plot, empty_plot, plotted
+from dq_marine.task.running_fix import fix_told, running_fix
 
 FIRST_DRAWS, HEARING_DRAWS = 2, 5
 """Uniform random numbers that `first_hearing` and `disturbed` take."""
@@ -120,6 +121,7 @@ def heard_from(
 
 
 def partner_told(link: Link, hearing: Hearing, measured: Motion, bow: Level, far: float) -> Any:
-    """Return what is told of the partner: by its last packet (`acoustics.packets_told`), and by the circles."""
+    """Return what is told of the partner: by its last packet (`acoustics.packets_told`), and where ranges put it."""
     packet = packet_told(link, hearing.last, measured.position_ned, bow, far)
-    return (*packet, circles_told(hearing.plot, bow, far))
+    likelier, other = running_fix(link, hearing.plot, bow)
+    return (*packet, fix_told(likelier, bow, far), fix_told(other, bow, far))

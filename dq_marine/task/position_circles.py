@@ -1,12 +1,12 @@
 """Circles of position: on which a partner may be, by ranges that were measured a while ago.
 
-A range puts the partner on a circle about where the vehicle was. While both go on, the circle is advanced, as in a
-running fix (Bowditch 2019, The American Practical Navigator, chapter 10): with the partner's velocity v, as it was told
-last, and one's own velocity u over ground, its centre c, seen from the vehicle, moves by
+A range puts the partner on a circle about where the vehicle was. While both go on, the circle is advanced, as for a
+running fix (`dq_marine.task.running_fix`): with the partner's velocity v, as it was told last, and one's own velocity u
+over ground, its centre c, seen from the vehicle, moves by
 
-    dc/dt = v - u,                                                                                      (1)
+    dc/dt = v - u.                                                                                      (1)
 
-and the partner is where the circles meet. Two meet twice; which side it is on shows when the vehicle has turned.
+Where packets tell no velocities, nothing is plotted.
 """
 
 from __future__ import annotations
@@ -14,10 +14,9 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple, TypeAlias
 
-from dq_marine.algebra.level import Level, from_above, level_cross, level_dot, level_length
+from dq_marine.algebra.level import Level, from_above, level_length
 from dq_marine.algebra.quaternion import rotate
 from dq_marine.algebra.selection import select, some
-from dq_marine.algebra.vector3 import bounded
 from dq_marine.integrator.body import Motion
 from dq_marine.task.acoustics import UNHEARD, Heard, Link
 
@@ -56,7 +55,7 @@ def plotted(link: Link, plot: Plot, heard: Any, last: Heard, measured: Motion, p
     """Return the plot a control period [s] later.
 
     Args:
-        link: which tells whether packets tell of courses; else the partner is taken to stand still.
+        link: which tells whether packets tell of courses.
         plot: as it was.
         heard: whether a packet has just been understood.
         last: the last packet.
@@ -64,16 +63,17 @@ def plotted(link: Link, plot: Plot, heard: Any, last: Heard, measured: Motion, p
         period: of control [s].
     """
     own = from_above(rotate(measured.attitude, measured.velocity.linear))
-    speed = link.course_told * last.message.speed
-    velocity = (speed * last.message.course[0] - own[0], speed * last.message.course[1] - own[1])
+    speed, course = last.message.speed, last.message.course
+    velocity = (speed * course[0] - own[0], speed * course[1] - own[1])
     a, b, c, d, e, f, g, h = plot
     a, b = advanced(a, velocity, period), advanced(b, velocity, period)
     c, d = advanced(c, velocity, period), advanced(d, velocity, period)
     e, f = advanced(e, velocity, period), advanced(f, velocity, period)
     g, h = advanced(g, velocity, period), advanced(h, velocity, period)
     later = (a, b, c, d, e, f, g, h)
+    heard = heard & (link.course_told > 0.5)
     if some(heard):
-        new = circle_of(link, last, measured, velocity)
+        new = circle_of(last, measured, velocity)
         # The newest before it is kept where it tells more than the one before that.
         kept = (b.radius < 0.0) | (distance_between(a, b) > SPACING * new.radius)
         later = select(heard, select(kept, (new, a, b, c, d, e, f, g), (new, b, c, d, e, f, g, h)), later)
@@ -86,16 +86,15 @@ def advanced(circle: Circle, velocity: Level, period: float) -> Circle:
     return Circle(centre, circle.radius, min(UNHEARD, circle.age + period))
 
 
-def circle_of(link: Link, last: Heard, measured: Motion, velocity: Level) -> Circle:
+def circle_of(last: Heard, measured: Motion, velocity: Level) -> Circle:
     """Return the circle of a packet that has just been understood.
 
     Args:
-        link: which tells whether packets tell of depths; else the partner is taken to be as deep as the vehicle.
         last: the packet.
         measured: one's own motion.
         velocity: of the partner less one's own, in north and east [m/s].
     """
-    deeper = link.course_told * (last.message.depth - measured.position_ned[2])
+    deeper = last.message.depth - measured.position_ned[2]
     level = math.sqrt(max(0.0, last.range * last.range - deeper * deeper))
     return Circle((last.age * velocity[0], last.age * velocity[1]), level, last.age)
 
@@ -103,37 +102,3 @@ def circle_of(link: Link, last: Heard, measured: Motion, velocity: Level) -> Cir
 def distance_between(a: Circle, b: Circle) -> float:
     """Return how far apart the centres of two circles are [m]."""
     return level_length((a.centre[0] - b.centre[0], a.centre[1] - b.centre[1]))
-
-
-def circles_told(plot: Plot, bow: Level, far: float) -> Any:
-    """Return of each circle 1 if there is one, else 0; its centre, ahead and to starboard; its radius; its age [s].
-
-    Lengths are bounded [m].
-    """
-    a, b, c, d, e, f, g, h = plot
-    return (
-        (
-            circle_told(a, bow, far),
-            circle_told(b, bow, far),
-            circle_told(c, bow, far),
-            circle_told(d, bow, far),
-        ),
-        (
-            circle_told(e, bow, far),
-            circle_told(f, bow, far),
-            circle_told(g, bow, far),
-            circle_told(h, bow, far),
-        ),
-    )
-
-
-def circle_told(circle: Circle, bow: Level, far: float) -> Any:
-    """Return what is told of one."""
-    there = select(circle.radius < 0.0, 0.0, 1.0)
-    return (
-        there,
-        bounded(there * level_dot(bow, circle.centre), far),
-        bounded(there * level_cross(bow, circle.centre), far),
-        bounded(there * circle.radius, far),
-        there * circle.age,
-    )

@@ -8,8 +8,8 @@ from dq_marine.envs.core.definition import Observed
 from dq_marine.task.acoustics import SENDERS, UNHEARD
 from dq_marine.task.common import SPEED_BOUND
 from dq_marine.task.lookout import VESSEL_SPEED_BOUND
-from dq_marine.task.position_circles import CIRCLES
 from dq_marine.task.ranging import Schedule
+from dq_marine.task.running_fix import FIXES
 from dq_marine.task.sensors.observing import OLDEST
 
 VELOCITY = (
@@ -88,22 +88,18 @@ def packets_shown(far: float, senders: int = SENDERS) -> tuple[Observed, ...]:
     )
 
 
-def circles_shown(far: float) -> tuple[Observed, ...]:
-    """Return what `dq_marine.task.position_circles.circles_told` gives; places are bounded by `far` [m]."""
-    centre = "its centre, moved as both have gone since, ahead and to starboard"
+def fixes_shown(far: float) -> tuple[Observed, ...]:
+    """Return what `dq_marine.task.running_fix.fix_told` gives of both fixes; distances are bounded by `far` [m]."""
+    which = ("the likelier", "the other")
     return numbered(
-        "circle",
-        CIRCLES,
+        "fix",
+        FIXES,
         lambda k: (
             Observed(
-                "told",
-                "",
-                1,
-                1.0,
-                f"1 or 0: there is range {k}, 1 the newest, and a circle that the sender is on",
+                "told", "", 1, 1.0, f"1 or 0: there is a running fix, by which {which[k - 1]} place is known"
             ),
-            Observed("centre_level", "m", 2, far, centre),
-            Observed("radius", "m", 1, far, "its radius"),
-            Observed("age", "s", 1, UNHEARD, "time since its range was measured"),
+            Observed("bearing_level", "", 2, 1.0, "where that is, as a unit vector, ahead and to starboard"),
+            Observed("distance", "m", 1, far, "how far off it is, seen from above"),
+            Observed("share", "", 1, 1.0, "how likely it is there, and not at the other"),
         ),
     )

@@ -12,7 +12,7 @@ from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.selection import select, spread
 from dq_marine.algebra.vector3 import bounded, bounded_vector
 from dq_marine.checks import finite_number, one_of
-from dq_marine.envs.core.observed import circles_shown, packets_shown
+from dq_marine.envs.core.observed import fixes_shown, packets_shown
 from dq_marine.envs.core.places import starting_depth
 from dq_marine.envs.core.suitability import cruising_speed, paced, unable_to_dive_under_way
 from dq_marine.envs.kit import VELOCITY, EpisodeContext, Observed, define_task, goal_along
@@ -187,7 +187,7 @@ def observations(settings: Any, vehicle: Any) -> tuple[Observed, ...]:
     far = FAR * max(LEAST_LENGTH, vehicle.dimensions.length) * settings.distance
     return (
         *packets_shown(far, 1),
-        *circles_shown(far),
+        *fixes_shown(far),
         Observed("bow_north_east", "", 2, 1.0, "where the bow points, by compass"),
         Observed("deeper_than_plan", "m", 1, far, "one's own depth less that of the partner's start"),
         Observed("down_body", "", 3, 1.0, "where down is"),

@@ -11,16 +11,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dq_marine.algebra.euler import quaternion_from_euler
-from dq_marine.algebra.level import level_bow
 from dq_marine.algebra.quaternion import rotate_inverse
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import Motion
-from dq_marine.task.acoustics import Heard, Link, Message, packet_told
+from dq_marine.task.acoustics import Heard, Link, Message
 from dq_marine.task.hearing import partner_link
-from dq_marine.task.position_circles import CIRCLES, SPACING, Plot, circles_told, empty_plot, plotted
+from dq_marine.task.position_circles import CIRCLES, SPACING, Circle, Plot, empty_plot, plotted
 
 PERIOD, SLOT, LATE = 0.1, 20, 3  # [s], [periods], [periods]: packets are understood so much later
-FAR = 1e3
 TELLING = partner_link(0.0, 0.0, "course", 0.0, SLOT * PERIOD)
 SILENT = partner_link(0.0, 0.0, "none", 0.0, SLOT * PERIOD)
 
@@ -75,8 +73,11 @@ def flown(meeting: Meeting, link: Link, periods: int) -> Plot:
     return plot
 
 
-def circles(plot: Plot, bow: tuple[float, float]) -> list[tuple[float, ...]]:
-    return [one for four in circles_told(plot, bow, FAR) for one in four]
+def kept(plot: Plot) -> list[Circle]:
+    """The circles that there are, which are the first ones."""
+    there = [one for one in plot if one.radius >= 0.0]
+    assert there == list(plot[: len(there)])
+    return there
 
 
 @given(
@@ -89,73 +90,46 @@ def test_a_partner_that_goes_straight_on_is_where_all_circles_meet(place, veloci
     """
     meeting = Meeting(list(place), list(velocity), turn, speed)
     plot = flown(meeting, TELLING, 2 * SLOT * CIRCLES + SLOT // 2)
-    motion = meeting.motion()
-    bow = level_bow(motion.attitude)
-    north, east = (meeting.place - meeting.own)[:2]
-    ahead, starboard = bow[0] * north + bow[1] * east, bow[0] * east - bow[1] * north
+    place = (meeting.place - meeting.own)[:2]
     change = abs(speed * turn) * (LATE * PERIOD) ** 2
-    shown = circles(plot, bow)
-    assert shown[0][0] == 1.0
-    for told, to_centre, across, radius, _ in shown:
-        off = abs(math.hypot(ahead - to_centre, starboard - across) - radius)
+    circles = kept(plot)
+    assert circles
+    for centre, radius, _ in circles:
+        off = abs(math.dist(place, centre) - radius)
         lost = 4.0 * math.sqrt(np.finfo(float).eps) * math.hypot(radius, 20.0)
-        assert off < change + lost or not told
+        assert off < change + lost
 
 
 @given(
     st.tuples(places, places, st.floats(0.0, 20.0)), st.tuples(speeds, speeds), st.floats(-0.3, 0.3), speeds
 )
-def test_the_newest_range_is_shown_and_those_before_it_from_other_sides(place, velocity, turn, speed):
+def test_the_newest_range_is_kept_and_those_before_it_from_other_sides(place, velocity, turn, speed):
     meeting = Meeting(list(place), list(velocity), turn, speed)
     plot = flown(meeting, TELLING, 3 * SLOT * CIRCLES + LATE)
-    shown = circles(plot, (1.0, 0.0))
-    ages = [age for *_, age in shown if age]
+    circles = kept(plot)
+    ages = [one.age for one in circles]
     assert ages == sorted(ages)
     assert math.isclose(ages[0], LATE * PERIOD)
-    kept = [one for one in shown if one[0]]
-    assert kept == shown[: len(kept)]
-    for newer, older in pairwise(kept[1:]):
-        apart = math.dist(newer[1:3], older[1:3])
-        assert apart > SPACING * meeting.nearest - 1e-5
+    for newer, older in pairwise(circles[1:]):
+        assert math.dist(newer.centre, older.centre) > SPACING * meeting.nearest - 1e-5
 
 
 @pytest.mark.parametrize(("speed", "count"), [(0.0, 2), (2.0, CIRCLES)])
 def test_who_keeps_its_place_beside_the_partner_needs_two_circles(speed, count):
     meeting = Meeting([0.0, 10.0, 10.0], [1.0, 0.0], 0.0, 1.0 + speed)
     plot = flown(meeting, TELLING, 40 * SLOT)
-    assert sum(told for told, *_ in circles(plot, (1.0, 0.0))) == count
+    assert len(kept(plot)) == count
 
 
-@given(st.tuples(places, places, st.floats(0.0, 20.0)), st.tuples(speeds, speeds), speeds)
-def test_of_a_partner_that_tells_nothing_circles_are_about_where_one_was(place, velocity, speed):
-    meeting = Meeting(list(place), list(velocity), 0.0, speed)
-    plot = flown(meeting, SILENT, SLOT + 15)
-    ranged = math.dist(
-        np.array(place) + SLOT * PERIOD * np.array([*velocity, 0.0]), (SLOT * PERIOD * speed, 0.0, 10.0)
-    )
-    (told, to_centre, across, radius, _), *_ = circles(plot, (1.0, 0.0))
-    assert told == 1.0
-    assert math.isclose(to_centre, -15 * PERIOD * speed, abs_tol=1e-9)
-    assert abs(across) < 1e-9
-    assert math.isclose(radius, ranged, abs_tol=1e-9)
+def test_of_a_partner_that_tells_nothing_nothing_is_plotted():
+    plot = flown(Meeting([40.0, 30.0, 10.0], [0.5, 0.0], 0.1, 1.0), SILENT, 3 * SLOT + LATE)
+    assert kept(plot) == []
 
 
-def test_centres_and_radii_are_bounded_and_told_as_the_bow_sees_them():
-    meeting = Meeting([40.0, 30.0, 10.0], [0.0, 0.0], 0.0, 1.0)
-    plot = flown(meeting, TELLING, SLOT + LATE)
-    (_, ahead, starboard, radius, age), *_ = circles(plot, (0.0, 1.0))
-    assert math.isclose(ahead, 0.0, abs_tol=1e-12)
-    assert math.isclose(starboard, LATE * PERIOD, rel_tol=1e-9), "south of a vehicle that heads east"
-    assert math.isclose(radius, math.hypot(40.0 - SLOT * PERIOD, 30.0), rel_tol=1e-9)
-    assert math.isclose(age, LATE * PERIOD)
-    told, ahead, starboard, radius, _ = circles_told(plot, (1.0, 0.0), 0.1)[0][0]
-    assert (told, ahead, radius) == (1.0, -0.1, 0.1)
-    assert abs(starboard) < 1e-12
-
-
-def test_the_newest_circle_and_the_packet_that_it_is_of_tell_the_same_range():
-    meeting = Meeting([40.0, 30.0, 18.0], [0.0, 0.0], 0.0, 0.0)
-    plot = flown(meeting, TELLING, SLOT + LATE)
-    told = packet_told(TELLING, meeting.packet(), tuple(meeting.own), (1.0, 0.0), FAR)
-    (_, _, _, radius, _), *_ = circles(plot, (1.0, 0.0))
-    assert math.isclose(math.hypot(radius, told[5]), told[2], rel_tol=1e-12)
+def test_a_circle_is_about_where_one_was():
+    """The vehicle has gone north since a packet was sent, and the partner stands still."""
+    meeting = Meeting([40.0, 30.0, 18.0], [0.0, 0.0], 0.0, 1.0)
+    (circle,) = kept(flown(meeting, TELLING, SLOT + LATE))
+    assert circle.centre == pytest.approx((-LATE * PERIOD, 0.0), abs=1e-12)
+    assert math.isclose(circle.radius, math.hypot(40.0 - SLOT * PERIOD, 30.0), rel_tol=1e-9)
+    assert math.isclose(circle.age, LATE * PERIOD)

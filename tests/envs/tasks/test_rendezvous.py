@@ -203,3 +203,21 @@ def test_the_baseline_meets_its_partner(vehicle):
     for seed in range(3):
         episode = fly_episode(env, controller, seed=seed)
         assert episode.success, f"seed {seed}: {episode.measured}"
+
+
+@pytest.mark.parametrize("joins", [(80,), range(4000)], ids=["once", "in each period"])
+def test_a_controller_that_joins_an_episode_under_way_meets_its_partner(joins):
+    """By the running fix alone. What it does when it joins in each period follows from what is seen then."""
+    env = gym.make(RENDEZVOUS, level="medium")
+    controller = controller_for(env)
+    met = 0
+    for seed in range(4):
+        observation, _ = env.reset(seed=6_000_000 + seed)
+        over, period = False, 0
+        while not over:
+            if period == 0 or period in joins:
+                controller.reset(env)
+            observation, _, terminated, truncated, info = env.step(controller.act(observation))
+            over, period = terminated or truncated, period + 1
+        met += bool(info["is_success"])
+    assert met == 4
