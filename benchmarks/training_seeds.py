@@ -5,23 +5,25 @@ Run: python benchmarks/training_seeds.py [--preset NAME ...] [--seed N ...] [--e
 Each run is that of `dq-marine train --preset NAME --seed N --run FOLDER/NAME-N`; one that is in the folder already, and
 has ended, is not trained again. Writes the tables of docs/howto/shipped_policies.md, between its words. A bound is kept
 in an episode where the means of both errors over its last third are within it. In the helix, errors are root mean
-squares: over all instants, with the way from the start to the point, and over the last thirds, without it.
+squares: over all instants, with the way from the start to the point, and over the last thirds, without it; and over
+all instants of flights that begin at rest where the point is, with the bow where it goes.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
+import gymnasium as gym
 import numpy as np
 from suite import blocks, circumstances, trainings
 from suite.tables import table
 
-from dq_marine.agents.environments import make_environment, scenario_settings
+from dq_marine.agents.environments import make_environment, marine, scenario_settings
 from dq_marine.agents.evaluation.episodes import Episode, fly_episode
 from dq_marine.agents.evaluation.metrics import Metric
 from dq_marine.agents.policies import load_policy, trained_environment
@@ -31,6 +33,11 @@ from dq_marine.envs.scenarios.files import load_scenario
 from dq_marine.util.files import with_folder, write_json, write_whole
 
 PAGE = circumstances.ROOT / "docs" / "howto" / "shipped_policies.md"
+
+Env: TypeAlias = gym.Env[Any, Any]
+
+Begin: TypeAlias = Callable[[Env, int], dict[str, Any] | None]
+"""Environment and seed -> options of its reset."""
 
 
 class Bound(NamedTuple):
@@ -80,10 +87,25 @@ def errors_of(episode: Episode, metric: Metric, *, steady: bool) -> Any:
     return values[episode.last_third] if steady else values
 
 
-def flights(policy: Path, environment: EnvironmentSettings, bound: Bound, episodes: int) -> Flights:
+def anywhere(env: Env, seed: int) -> None:
+    """Let an episode begin where the task lets it."""
+
+
+def at_the_point(env: Env, seed: int) -> dict[str, Any]:
+    """Return options by which an episode begins at rest where its goal is then, with the bow where that goes."""
+    env.reset(seed=seed)
+    shown = marine(env).snapshot()
+    attitude = shown.goal_quaternion_body_to_ned
+    return {"position": shown.goal_position_ned, "quaternion": attitude, "velocity": np.zeros(6)}
+
+
+def flights(
+    policy: Path, environment: EnvironmentSettings, bound: Bound, episodes: int, begin: Begin = anywhere
+) -> Flights:
     """Fly a policy through episodes that it has not seen."""
     env, agent = make_environment(environment), load_policy(policy)
-    flown = [fly_episode(env, agent, seed=trainings.UNSEEN + number) for number in range(episodes)]
+    seeds = range(trainings.UNSEEN, trainings.UNSEEN + episodes)
+    flown = [fly_episode(env, agent, seed=seed, options=begin(env, seed)) for seed in seeds]
     metrics = flown[0].metrics
 
     def root_mean_squares(*, steady: bool) -> list[float]:
@@ -104,11 +126,16 @@ def flights(policy: Path, environment: EnvironmentSettings, bound: Bound, episod
 
 
 def kept_flights(
-    file: Path, policy: Path, environment: EnvironmentSettings, bound: Bound, episodes: int
+    file: Path,
+    policy: Path,
+    environment: EnvironmentSettings,
+    bound: Bound,
+    episodes: int,
+    begin: Begin = anywhere,
 ) -> Flights:
     """Return the flights of a policy, which stand in a file once they are flown."""
     if not file.is_file():
-        write_json(with_folder(file), vars(flights(policy, environment, bound, episodes)))
+        write_json(with_folder(file), vars(flights(policy, environment, bound, episodes, begin)))
     return Flights(**json.loads(file.read_text(encoding="utf-8")))
 
 
@@ -123,6 +150,9 @@ def cells_of(policy: Path, bound: Bound, episodes: int, folder: Path) -> list[st
         there = kept_flights(folder / f"helix_{episodes}.json", policy, helix, bound, episodes)
         cells += [f"{there.kept} of {episodes}"]
         cells += [f"{whole:.3g}, {late:.3g}" for whole, late in zip(there.whole, there.steady, strict=True)]
+        kept = folder / f"helix_at_the_point_{episodes}.json"
+        along = kept_flights(kept, policy, helix, bound, episodes, at_the_point)
+        cells += [", ".join(f"{whole:.3g}" for whole in along.whole)]
     return cells
 
 
@@ -160,6 +190,7 @@ def section(preset: str, seeds: Sequence[int], episodes: int, runs: Path) -> str
     ]
     if bound.scenario is not None:
         header += ["helix: within the same", "helix: position, RMS [m]", "helix: heading, RMS [deg]"]
+        header += ["helix from the point on: both, RMS"]
     return f"### {preset}\n\n{table(header, rows)}\n"
 
 

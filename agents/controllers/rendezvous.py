@@ -100,7 +100,7 @@ class RendezvousController(GuidedJourney):
         speed = float(parts["partner_speed"][0])
         partner = self._partner
         if partner is None:
-            wanted = turned((speed, 0.0), self._first_bow or 0.0)  # on, until something is heard
+            wanted = turned((speed, 0.0), self._blind_course(parts))
         else:
             safe, meeting = (float(parts[f"{name}_distance"][0]) for name in ("safe", "meeting"))
             wanted = self._wanted(partner, self._velocity, safe + BESIDE * (meeting - safe), speed)
@@ -125,6 +125,14 @@ class RendezvousController(GuidedJourney):
     def _partner(self) -> Partner | None:
         """What is known of the partner; None where nothing is."""
         return self._fix if self._filter is None else Partner(*self._filter.likeliest.tolist())
+
+    def _blind_course(self, parts: dict[str, Array]) -> float:
+        """Return where to go while the partner might be anywhere [rad]: on, or to starboard of one that comes closer.
+
+        That is the rule of the road for meeting head on, and where it comes from shows while the vehicle turns.
+        """
+        comes = parts["packet_1_told"][1] > 0.5 and parts["packet_1_course_level"][0] < 0.0
+        return self._bow + 0.5 * math.pi if comes else self._first_bow or 0.0
 
     def _forget(self) -> None:
         """Begin anew."""

@@ -38,6 +38,7 @@ def test_shipped_presets_are_valid() -> None:
         "PathFollowing",
         "PathFollowing_otter",
         "PipelineInspection",
+        "Rendezvous",
         "StationKeeping",
         "TerrainFollowing",
         "TrajectoryTracking",
