@@ -51,6 +51,18 @@ NOWHERE = -1e3
 """ln p of a place that there is no circle for."""
 
 
+class Line(NamedTuple):
+    """A circle about a centre [m] that a place is on, of a radius [m], and 1/s^2 of that [1/m^2]; 0 where none is."""
+
+    centre: Level
+    radius: float
+    certain: float
+
+
+Lines: TypeAlias = tuple[Line, Line, Line, Line, Line, Line, Line, Line]
+"""Of a plot, the newest first."""
+
+
 class Place(NamedTuple):
     """A place on the newest circle: the unit vector to it from the centre, and its ln p."""
 
@@ -68,6 +80,9 @@ class Fix(NamedTuple):
 
 Pair: TypeAlias = tuple[Place, Place]
 
+Pairs: TypeAlias = tuple[Pair, Pair, Pair, Pair, Pair, Pair, Pair]
+"""Where each circle but the newest meets that."""
+
 
 def running_fix(link: Link, plot: Plot, bow: Level) -> tuple[Fix, Fix]:
     """Return the two places where circles meet best, the likelier first.
@@ -84,35 +99,58 @@ def running_fix(link: Link, plot: Plot, bow: Level) -> tuple[Fix, Fix]:
         PREFERRED[0] * bow[0] - PREFERRED[1] * bow[1],
         PREFERRED[0] * bow[1] + PREFERRED[1] * bow[0],
     )
-    pairs = meetings(link, plot, preferred)
+    lines = lines_of(link, plot)
+    pairs = meetings(lines, preferred)
     one = best_of(pairs)
     other = best_of(all_apart_from(one, pairs))
-    one, other = refined(link, plot, one), refined(link, plot, other)
+    one, other = refined(lines, one), refined(lines, other)
     share = 1.0 / (1.0 + exponential(max(-MOST, min(MOST, other.likely - one.likely))))
     known = select(plot[1].radius < 0.0, 0.0, 1.0)
     return (
-        Fix(on_circle(plot[0], one.direction), share, known),
-        Fix(on_circle(plot[0], other.direction), 1.0 - share, known),
+        Fix(on_line(lines[0], one.direction), share, known),
+        Fix(on_line(lines[0], other.direction), 1.0 - share, known),
     )
 
 
-def meetings(link: Link, plot: Plot, preferred: Level) -> tuple[Pair, Pair, Pair, Pair, Pair, Pair, Pair]:
-    """Return where each circle but the newest meets that."""
-    _, b, c, d, e, f, g, h = plot
+def lines_of(link: Link, plot: Plot) -> Lines:
+    """Return the circles of a plot, with how certain they are."""
+    a, b, c, d, e, f, g, h = plot
     return (
-        meeting(link, plot, b, preferred),
-        meeting(link, plot, c, preferred),
-        meeting(link, plot, d, preferred),
-        meeting(link, plot, e, preferred),
-        meeting(link, plot, f, preferred),
-        meeting(link, plot, g, preferred),
-        meeting(link, plot, h, preferred),
+        line_of(link, a),
+        line_of(link, b),
+        line_of(link, c),
+        line_of(link, d),
+        line_of(link, e),
+        line_of(link, f),
+        line_of(link, g),
+        line_of(link, h),
     )
 
 
-def meeting(link: Link, plot: Plot, other: Circle, preferred: Level) -> Pair:
+def line_of(link: Link, circle: Circle) -> Line:
+    """Return one of them."""
+    older = DRIFT * circle.age
+    variance = link.noise * link.noise + LENGTH_STEP * LENGTH_STEP + older * older
+    return Line(circle.centre, circle.radius, select(circle.radius < 0.0, 0.0, 1.0 / variance))
+
+
+def meetings(lines: Lines, preferred: Level) -> Pairs:
+    """Return where each circle but the newest meets that."""
+    _, b, c, d, e, f, g, h = lines
+    return (
+        meeting(lines, b, preferred),
+        meeting(lines, c, preferred),
+        meeting(lines, d, preferred),
+        meeting(lines, e, preferred),
+        meeting(lines, f, preferred),
+        meeting(lines, g, preferred),
+        meeting(lines, h, preferred),
+    )
+
+
+def meeting(lines: Lines, other: Line, preferred: Level) -> Pair:
     """Return where one of the circles meets the newest, or comes nearest to it."""
-    newest = plot[0]
+    newest = lines[0]
     way = (other.centre[0] - newest.centre[0], other.centre[1] - newest.centre[1])
     apart = max(CONCENTRIC, level_length(way))
     along = select(apart > CONCENTRIC, (way[0] / apart, way[1] / apart), (1.0, 0.0))
@@ -130,16 +168,16 @@ def meeting(link: Link, plot: Plot, other: Circle, preferred: Level) -> Pair:
     )
     there = other.radius >= 0.0
     return (
-        Place(right, select(there, preference(link, plot, right, preferred), NOWHERE)),
-        Place(left, select(there, preference(link, plot, left, preferred), NOWHERE)),
+        Place(right, select(there, preference(lines, right, preferred), NOWHERE)),
+        Place(left, select(there, preference(lines, left, preferred), NOWHERE)),
     )
 
 
-def preference(link: Link, plot: Plot, direction: Level, preferred: Level) -> float:
+def preference(lines: Lines, direction: Level, preferred: Level) -> float:
     """Return equation (1) for a place on the newest circle, and what it is preferred by."""
-    place = on_circle(plot[0], direction)
+    place = on_line(lines[0], direction)
     towards = level_dot(preferred, place) / max(1e-6, level_length(place))
-    return likelihood(link, plot, direction) + PREFERENCE * towards
+    return likelihood(lines, direction) + PREFERENCE * towards
 
 
 def better(a: Place, b: Place) -> Place:
@@ -147,16 +185,14 @@ def better(a: Place, b: Place) -> Place:
     return select(b.likely > a.likely, b, a)
 
 
-def best_of(pairs: tuple[Pair, Pair, Pair, Pair, Pair, Pair, Pair]) -> Place:
+def best_of(pairs: Pairs) -> Place:
     """Return the likeliest of all."""
     a, b, c, d, e, f, g = pairs
     first = better(better(better(*a), better(*b)), better(better(*c), better(*d)))
     return better(first, better(better(*e), better(better(*f), better(*g))))
 
 
-def all_apart_from(
-    one: Place, pairs: tuple[Pair, Pair, Pair, Pair, Pair, Pair, Pair]
-) -> tuple[Pair, Pair, Pair, Pair, Pair, Pair, Pair]:
+def all_apart_from(one: Place, pairs: Pairs) -> Pairs:
     """Return all places, of which those about where one is do not count."""
     a, b, c, d, e, f, g = pairs
     return (
@@ -179,67 +215,55 @@ def apart_from(one: Place, pair: Pair) -> Pair:
     )
 
 
-def likelihood(link: Link, plot: Plot, direction: Level) -> float:
+def likelihood(lines: Lines, direction: Level) -> float:
     """Return equation (1) for a place on the newest circle."""
-    place = on_circle(plot[0], direction)
-    a, b, c, d, e, f, g, h = plot
+    place = on_line(lines[0], direction)
+    a, b, c, d, e, f, g, h = lines
     squares = (
-        (square_off(link, a, place) + square_off(link, b, place))
-        + (square_off(link, c, place) + square_off(link, d, place))
-    ) + (
-        (square_off(link, e, place) + square_off(link, f, place))
-        + (square_off(link, g, place) + square_off(link, h, place))
-    )
+        (square_off(a, place) + square_off(b, place)) + (square_off(c, place) + square_off(d, place))
+    ) + ((square_off(e, place) + square_off(f, place)) + (square_off(g, place) + square_off(h, place)))
     return -0.5 * squares
 
 
-def square_off(link: Link, circle: Circle, place: Level) -> float:
+def square_off(line: Line, place: Level) -> float:
     """Return how far a place is off a circle, squared and over its variance, as far as that counts."""
-    off = level_length((place[0] - circle.centre[0], place[1] - circle.centre[1])) - circle.radius
-    return min(MOST, off * off * weight(link, circle))
+    off = level_length((place[0] - line.centre[0], place[1] - line.centre[1])) - line.radius
+    return min(MOST, off * off * line.certain)
 
 
-def weight(link: Link, circle: Circle) -> float:
-    """Return 1/s^2 of a circle [1/m^2], or 0 where there is none."""
-    older = DRIFT * circle.age
-    variance = link.noise * link.noise + LENGTH_STEP * LENGTH_STEP + older * older
-    return select(circle.radius < 0.0, 0.0, 1.0 / variance)
-
-
-def refined(link: Link, plot: Plot, place: Place) -> Place:
+def refined(lines: Lines, place: Place) -> Place:
     """Return a place brought nearer to where it is likeliest, with what it is likely by alone."""
-    direction = nearer(link, plot, nearer(link, plot, place.direction))
+    direction = nearer(lines, nearer(lines, place.direction))
     there = place.likely > 0.5 * NOWHERE
-    return Place(direction, select(there, likelihood(link, plot, direction), NOWHERE))
+    return Place(direction, select(there, likelihood(lines, direction), NOWHERE))
 
 
-def nearer(link: Link, plot: Plot, direction: Level) -> Level:
+def nearer(lines: Lines, direction: Level) -> Level:
     """Return the direction of a place after one step of equation (2)."""
-    a, b, c, d, e, f, g, h = plot
-    place, across = on_circle(a, direction), (-a.radius * direction[1], a.radius * direction[0])
-    first = both(pull(link, b, place, across), pull(link, c, place, across))
-    second = both(pull(link, d, place, across), pull(link, e, place, across))
-    third = both(pull(link, f, place, across), pull(link, g, place, across))
-    push, hold = both(both(first, second), both(third, pull(link, h, place, across)))
+    a, b, c, d, e, f, g, h = lines
+    place, across = on_line(a, direction), (-a.radius * direction[1], a.radius * direction[0])
+    first = both(pull(b, place, across), pull(c, place, across))
+    second = both(pull(d, place, across), pull(e, place, across))
+    third = both(pull(f, place, across), pull(g, place, across))
+    push, hold = both(both(first, second), both(third, pull(h, place, across)))
     turn = bounded(-push / (1.0 + hold), LONGEST_STEP)
     there = (direction[0] - turn * direction[1], direction[1] + turn * direction[0])
     length = level_length(there)
     return (there[0] / length, there[1] / length)
 
 
-def pull(link: Link, circle: Circle, place: Level, across: Level) -> Level:
+def pull(line: Line, place: Level, across: Level) -> Level:
     """Return what a circle adds to both sums of equation (2).
 
     Args:
-        link: which tells how much ranges err.
-        circle: one but the newest, which all places are on.
+        line: one but the newest, which all places are on.
         place: from which the step begins [m].
         across: how it moves with the angle [m/rad].
     """
-    way = (place[0] - circle.centre[0], place[1] - circle.centre[1])
+    way = (place[0] - line.centre[0], place[1] - line.centre[1])
     length = max(1e-6, level_length(way))
-    slope, certain = level_dot(across, way) / length, weight(link, circle)
-    return ((length - circle.radius) * slope * certain, slope * slope * certain)
+    slope = level_dot(across, way) / length
+    return ((length - line.radius) * slope * line.certain, slope * slope * line.certain)
 
 
 def both(a: Level, b: Level) -> Level:
@@ -260,9 +284,9 @@ def fix_told(fix: Fix, bow: Level, far: float) -> Any:
     )
 
 
-def on_circle(circle: Circle, direction: Level) -> Level:
+def on_line(line: Line, direction: Level) -> Level:
     """Return the place on a circle in a direction from its centre."""
     return (
-        circle.centre[0] + circle.radius * direction[0],
-        circle.centre[1] + circle.radius * direction[1],
+        line.centre[0] + line.radius * direction[0],
+        line.centre[1] + line.radius * direction[1],
     )
