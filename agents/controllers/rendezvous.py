@@ -149,7 +149,7 @@ class RendezvousController(GuidedJourney):
 
         It is the partner's and what closes in on the place, so that the bearing there stays (Breivik & Fossen 2008,
         "Guidance laws for planar motion control", 47th IEEE CDC, 570). Out of the way of one who comes towards
-        the vehicle, that turns first.
+        the vehicle, that turns first, to the side on which it would pass anyway: else it might turn to and fro.
 
         Args:
             partner: as the filter has it.
@@ -159,17 +159,19 @@ class RendezvousController(GuidedJourney):
         """
         course = math.atan2(partner.v_east, partner.v_north)
         ahead, starboard = turned((-partner.north, -partner.east), -course)  # of the partner
-        self._side = math.copysign(1.0, starboard) if abs(starboard) > UNDECIDED * beside else self._side
-        if ahead > 0.0 and abs(starboard) < CLEAR * beside and turned(own, -course)[0] < 0.0:
+        onward, aside = turned(own, -course)
+        comes = ahead > 0.0 and onward < 0.0
+        fast = math.hypot(partner.v_north, partner.v_east)
+        passing = starboard + aside * ahead / (fast - onward) if comes else starboard
+        self._side = math.copysign(1.0, passing) if abs(passing) > UNDECIDED * beside else self._side
+        if comes and abs(passing) < CLEAR * beside:
             return turned((0.0, self._side * planned), course)
         away = AWAY * max(0.0, beside / max(1e-9, math.hypot(ahead, starboard)) - 1.0)
         to_place = ((away - 1.0) * ahead, self._side * beside + (away - 1.0) * starboard)
         distance = max(1e-9, math.hypot(*to_place))
         catching_up = BY_FIX if self._filter is None else CATCHING_UP
         closing = min(HASTE * planned, distance * planned / (catching_up * self._pilot.length))
-        along = max(
-            SLOWEST * planned, math.hypot(partner.v_north, partner.v_east) + closing * to_place[0] / distance
-        )
+        along = max(SLOWEST * planned, fast + closing * to_place[0] / distance)
         return turned((along, closing * to_place[1] / distance), course)
 
     def _hear(self, parts: dict[str, Array], attitude: Attitude, bow: float) -> None:

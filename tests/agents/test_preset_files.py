@@ -143,8 +143,8 @@ def test_what_is_no_preset(tmp_path: Path) -> None:
         InvalidInputError,
         match="no preset or file 'ddpg'; the presets are Berthing, DepthHeading, Docking, DynamicPositioning, "
         "Encounter, FormationKeeping, ObstacleAvoidance, PathFollowing, PathFollowing_otter, PipelineInspection, "
-        "Rendezvous, StationKeeping, TerrainFollowing, TrajectoryTracking, WaypointTracking, autopilot, avoidance, crossq, "
-        "dp_controller, over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
+        "Rendezvous, StationKeeping, TerrainFollowing, TrajectoryTracking, WaypointTracking, autopilot, avoidance, "
+        "crossq, dp_controller, over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"
