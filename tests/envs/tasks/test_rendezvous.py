@@ -221,3 +221,11 @@ def test_a_controller_that_joins_an_episode_under_way_meets_its_partner(joins):
             over, period = terminated or truncated, period + 1
         met += bool(info["is_success"])
     assert met == 4
+
+
+@pytest.mark.parametrize("seed", [5_000_055, 5_000_120, 5_000_174])
+def test_a_partner_that_comes_head_on_is_passed_on_one_side(seed):
+    """Which side its place would be on changes with each packet there, and who turned with it was hit."""
+    env = gym.make(RENDEZVOUS, level="medium")
+    episode = fly_episode(env, controller_for(env), seed=seed)
+    assert episode.success, episode.measured
