@@ -62,7 +62,8 @@ def make_agents(
         seed: of agents that draw.
 
     Raises:
-        InvalidInputError: a name is unknown or given twice, or there is no policy at a path.
+        InvalidInputError: a name is unknown or given twice, there is no policy at a path, or one was trained for other
+            observations or actions than those of the environment.
         MissingDependencyError: the libraries that a policy or a controller needs are not installed.
     """
     agents = {name: make_baseline(name, env, seed) for name in baselines}
@@ -70,4 +71,7 @@ def make_agents(
         if name in agents:
             raise InvalidInputError(f"there are two agents called {name!r}; rename {policy}")
         agents[name] = load_policy(policy)
+        agents[name].reset(
+            env
+        )  # it says here, before anything is shown, if this is not what it was trained for
     return agents

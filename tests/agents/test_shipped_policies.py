@@ -19,6 +19,7 @@ from dq_marine.agents.policies import load_policy, trained_environment
 from dq_marine.agents.policy_names import policy_path, shipped_policies
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import TrainingSettings
+from dq_marine.envs.core.marine_env import MarineEnv
 from dq_marine.envs.core.registry import task_called
 from dq_marine.errors import InvalidInputError
 
@@ -77,6 +78,21 @@ def test_python_refuses_what_is_no_policy(load: Callable[[Any], Any], tmp_path: 
         load(str(tmp_path / "absent.onnx"))
     with pytest.raises(InvalidInputError, match=f"{tmp_path.name}"):
         load(tmp_path)
+
+
+def test_an_environment_that_it_was_not_trained_for_is_refused_before_anything_is_shown(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """No page is opened, because no episode begins that anybody sees."""
+    begin = MarineEnv.reset
+
+    def begun(env: MarineEnv, **given: Any) -> Any:
+        assert env.render_mode != "human"
+        return begin(env, **given)
+
+    monkeypatch.setattr(MarineEnv, "reset", begun)
+    flown = run("fly", "--policy", "StationKeeping", "--set", "sensors=auv", "--live")
+    assert_refused(flown, r"trained in dq_marine/StationKeeping-v0 .*sensors")
 
 
 def test_what_is_no_policy_is_answered_with_the_names() -> None:
