@@ -113,7 +113,7 @@ class Rewards(NamedTuple):
 
     nearness: float = 0.5
     company: float = 0.5
-    finish: float = 50.0
+    finish: float = 300.0  # to stay near for ever pays 100 to who discounts by 0.99
     collision: float = 50.0
     effort: float = 0.02
 

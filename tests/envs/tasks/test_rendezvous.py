@@ -149,6 +149,12 @@ def test_starts_are_away_from_the_partner_with_the_bow_about_towards_it(level):
         assert begun.position_ned[2] >= 20.0
 
 
+def test_to_meet_pays_more_than_to_stay_near_for_ever():
+    """For who discounts by 0.99; per period nobody gets more than nearness and company in full."""
+    weights = DEFINITION.weights
+    assert weights.finish > 2.0 * (weights.nearness + weights.company) / (1.0 - 0.99)
+
+
 @pytest.mark.parametrize("contents", ["none", "position"])
 def test_what_is_observed_stays_within_its_bounds_wherever_the_vehicle_is(contents):
     vehicle, keywords = load_vehicle("remus100"), {"contents": contents, "drift": 100.0, "noise": 100.0}
