@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.backend.packing import pack, structure_type
+from dq_marine.backend.packing import pack, size_of, structure_type
 from dq_marine.backend.simd.vehicles import PoolLayout, member_index
 from dq_marine.checks import whole_number
 from dq_marine.envs.core.currents import numbers_of
@@ -95,7 +95,8 @@ def prepared_pool(settings: Settings) -> VehiclePool:
     """Return the vehicles of settings with their numbers: the vehicle itself, or those drawn from it.
 
     Raises:
-        InvalidInputError: a vehicle cannot be integrated with the step, or the vehicles differ in what is computed.
+        InvalidInputError: a vehicle cannot be integrated with the step, or the vehicles differ in what is computed, or
+            in how many numbers a sea's forces on them are made of.
     """
     vehicles = drawn_vehicles(settings)
     scenes = [
@@ -110,6 +111,13 @@ def prepared_pool(settings: Settings) -> VehiclePool:
                 "distributions under which no term of the one is zero in another"
             )
     parameters = tuple(map(numbers_of, scenes))
+    sizes = [size_of(one) for one in parameters]
+    for number, size in enumerate(sizes):
+        if size != sizes[0]:  # compiled code would read one's numbers as if they were the other's
+            raise InvalidInputError(
+                f"drawn vehicle {number} answers to the sea by {size} numbers, vehicle 0 by {sizes[0]}: hulls that "
+                "differ follow its waves by series of different lengths; leave randomise out, or the sea of the weather"
+            )
     return VehiclePool(vehicles, first, parameters, told=((),) * len(vehicles))
 
 

@@ -163,3 +163,21 @@ def test_vessels_with_propellers_fly_as_each_alone():
     envs = gym.make_vec(ID, num_envs=9, **keywords)
     assert_flights_agree(envs, Separate(9, **keywords), 20, seed=3)
     assert len(set(envs.get_attr("flown_vehicle"))) > 1
+
+
+def test_ships_that_answer_to_a_sea_by_different_tables_are_refused():
+    """One's numbers were read where another's are, alone; among many they were refused already."""
+    with pytest.raises(
+        InvalidInputError, match=r"drawn vehicle \d answers to the sea by .* leave randomise out"
+    ):
+        gym.make("dq_marine/DynamicPositioning-v0", level="medium", **POOL)
+
+
+def test_ships_of_a_pool_have_their_own_numbers():
+    """In calm water, where the tables of all are of one size: what is unpacked is what was prepared."""
+    env = gym.make("dq_marine/Berthing-v0", level="hard", **POOL).unwrapped
+    for seed in range(5):
+        _, info = env.reset(seed=seed)
+        prepared = env.pool.parameters[int(info["vehicle"])]
+        assert env._parameters.inertia == prepared.inertia
+        assert np.isfinite(env.velocity_through_water).all()
