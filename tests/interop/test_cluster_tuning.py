@@ -34,7 +34,7 @@ def test_nothing_is_lost_where_a_machine_is_killed_in_a_search(tmp_path):
         finally:
             losing.join()
         with cluster_workers(cluster.address, 1):
-            assert lost.node_id not in alive()
+            wait_until(lambda: lost.node_id not in alive())
             assert left.node_id in alive()
     assert sorted(one.number for one in spread) == list(range(TRIALS))
     assert all(one.mean_return is not None for one in spread)
