@@ -71,7 +71,6 @@ def make_agents(
         if name in agents:
             raise InvalidInputError(f"there are two agents called {name!r}; rename {policy}")
         agents[name] = load_policy(policy)
-        agents[name].reset(
-            env
-        )  # it says here, before anything is shown, if this is not what it was trained for
+        # If this is not what it was trained for, it says so here, before anything is shown.
+        agents[name].reset(env)
     return agents

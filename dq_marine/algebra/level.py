@@ -41,6 +41,11 @@ def level_turned(a: Level, angle: float) -> Level:
     return (c * a[0] - s * a[1], s * a[0] + c * a[1])
 
 
+def level_along(a: Level, ahead: Level) -> Level:
+    """Return a vector that is given ahead and to starboard of a unit vector, as that is: in north and east, or so."""
+    return (a[0] * ahead[0] - a[1] * ahead[1], a[0] * ahead[1] + a[1] * ahead[0])
+
+
 def level_bow(quaternion_body_to_ned: Quaternion) -> Level:
     """Return where the bow points, seen from above: a unit vector, or about 0 for a vehicle that stands upright."""
     bow = rotate(quaternion_body_to_ned, (1.0, 0.0, 0.0))

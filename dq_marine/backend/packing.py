@@ -32,13 +32,6 @@ def flatten(structure: Any) -> Iterator[float]:
         yield float(structure)
 
 
-def size_of(structure: Any) -> int:
-    """Return how many numbers nested tuples hold."""
-    if isinstance(structure, Table):  # of a sea, some thousands: not one by one
-        return len(structure)
-    return sum(map(size_of, structure)) if isinstance(structure, tuple) else 1
-
-
 def pack(structure: Any) -> NDArray[np.float64]:
     """Return the numbers of nested tuples as a float64 array."""
     return np.fromiter(flatten(structure), dtype=np.float64)

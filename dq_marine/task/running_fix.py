@@ -20,7 +20,7 @@ import math
 from typing import Any, NamedTuple, TypeAlias
 
 from dq_marine.algebra.elementary import exponential
-from dq_marine.algebra.level import Level, level_cross, level_dot, level_length
+from dq_marine.algebra.level import Level, level_along, level_cross, level_dot, level_length
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.vector3 import bounded
 from dq_marine.task.acoustics import LENGTH_STEP, Link
@@ -95,16 +95,12 @@ def running_fix(link: Link, plot: Plot, bow: Level) -> tuple[Fix, Fix]:
         plot: circles in north and east.
         bow: where it points: a unit vector.
     """
-    preferred = (
-        PREFERRED[0] * bow[0] - PREFERRED[1] * bow[1],
-        PREFERRED[0] * bow[1] + PREFERRED[1] * bow[0],
-    )
     lines = lines_of(link, plot)
-    pairs = meetings(lines, preferred)
+    pairs = meetings(lines, level_along(PREFERRED, bow))
     one = best_of(pairs)
     other = best_of(all_apart_from(one, pairs))
     one, other = refined(lines, one), refined(lines, other)
-    share = 1.0 / (1.0 + exponential(max(-MOST, min(MOST, other.likely - one.likely))))
+    share = 1.0 / (1.0 + exponential(bounded(other.likely - one.likely, MOST)))
     known = select(plot[1].radius < 0.0, 0.0, 1.0)
     return (
         Fix(on_line(lines[0], one.direction), share, known),
@@ -158,14 +154,7 @@ def meeting(lines: Lines, other: Line, preferred: Level) -> Pair:
     squares = newest.radius * newest.radius + apart * apart - other.radius * other.radius
     cosine = bounded(squares / max(CONCENTRIC, 2.0 * newest.radius * apart), 1.0)
     sine = math.sqrt(1.0 - cosine * cosine)
-    right = (
-        cosine * along[0] - sine * along[1],
-        cosine * along[1] + sine * along[0],
-    )
-    left = (
-        cosine * along[0] + sine * along[1],
-        cosine * along[1] - sine * along[0],
-    )
+    right, left = level_along((cosine, sine), along), level_along((cosine, -sine), along)
     there = other.radius >= 0.0
     return (
         Place(right, select(there, preference(lines, right, preferred), NOWHERE)),
@@ -247,7 +236,7 @@ def nearer(lines: Lines, direction: Level) -> Level:
     third = both(pull(f, place, across), pull(g, place, across))
     push, hold = both(both(first, second), both(third, pull(h, place, across)))
     turn = bounded(-push / (1.0 + hold), LONGEST_STEP)
-    there = (direction[0] - turn * direction[1], direction[1] + turn * direction[0])
+    there = level_along((1.0, turn), direction)
     length = level_length(there)
     return (there[0] / length, there[1] / length)
 

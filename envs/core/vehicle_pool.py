@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dq_marine.backend.packing import pack, size_of, structure_type
+from dq_marine.backend.packing import pack, structure_type
 from dq_marine.backend.simd.vehicles import PoolLayout, member_index
 from dq_marine.checks import whole_number
 from dq_marine.envs.core.currents import numbers_of
@@ -99,26 +99,13 @@ def prepared_pool(settings: Settings) -> VehiclePool:
             in how many numbers a sea's forces on them are made of.
     """
     vehicles = drawn_vehicles(settings)
-    scenes = [
-        _scene(settings.with_vehicle(vehicle), number, len(vehicles))
-        for number, vehicle in enumerate(vehicles)
-    ]
-    first = scenes[0]
-    for number, scene in enumerate(scenes):
-        if scene.composition != first.composition:
-            raise InvalidInputError(
-                f"drawn vehicle {number} has the terms {list(scene.terms)}, vehicle 0 {list(first.terms)}; give "
-                "distributions under which no term of the one is zero in another"
-            )
-    parameters = tuple(map(numbers_of, scenes))
-    sizes = [size_of(one) for one in parameters]
-    for number, size in enumerate(sizes):
-        if size != sizes[0]:  # compiled code would read one's numbers as if they were the other's
-            raise InvalidInputError(
-                f"drawn vehicle {number} answers to the sea by {size} numbers, vehicle 0 by {sizes[0]}: hulls that "
-                "differ follow its waves by series of different lengths; leave randomise out, or the sea of the weather"
-            )
-    return VehiclePool(vehicles, first, parameters, told=((),) * len(vehicles))
+    scenes: list[Scene] = []
+    parameters: list[StepParameters] = []
+    for number, vehicle in enumerate(vehicles):
+        scenes.append(_scene(settings.with_vehicle(vehicle), number, len(vehicles)))
+        parameters.append(numbers_of(scenes[-1]))
+        _check_last_is_computed_as_first(scenes, parameters)
+    return VehiclePool(vehicles, scenes[0], tuple(parameters), told=((),) * len(vehicles))
 
 
 def drawn_vehicles(settings: Settings) -> tuple[Vehicle, ...]:
@@ -142,6 +129,22 @@ def wrench_limits_of(vehicle: Vehicle) -> tuple[float, float, float, float, floa
     """Return the wrench at full action [N, N m], Fossen's order."""
     x, y, z, k, m, n = vehicle.wrench_limits.tolist()
     return (x, y, z, k, m, n)
+
+
+def _check_last_is_computed_as_first(scenes: list[Scene], parameters: list[StepParameters]) -> None:
+    """Check that what is compiled for the first vehicle so far computes the last one, too."""
+    number, first, last = len(scenes) - 1, scenes[0], scenes[-1]
+    if last.composition != first.composition:
+        raise InvalidInputError(
+            f"drawn vehicle {number} has the terms {list(last.terms)}, vehicle 0 {list(first.terms)}; give "
+            "distributions under which no term of the one is zero in another"
+        )
+    size, wanted = pack(parameters[-1]).size, pack(parameters[0]).size
+    if size != wanted:  # the last one's numbers would be read as if they were the first one's
+        raise InvalidInputError(
+            f"drawn vehicle {number} answers to the sea by {size} numbers, vehicle 0 by {wanted}: hulls that "
+            "differ follow its waves by series of different lengths; leave randomise out, or the sea of the weather"
+        )
 
 
 def _scene(settings: Settings, number: int, count: int) -> Scene:

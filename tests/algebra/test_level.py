@@ -8,7 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dq_marine.algebra.euler import quaternion_from_euler
-from dq_marine.algebra.level import level_bow, level_cross, level_dot, level_length, level_turned, seen_at
+from dq_marine.algebra.level import (
+    level_along,
+    level_bow,
+    level_cross,
+    level_dot,
+    level_length,
+    level_turned,
+    seen_at,
+)
 
 angles = st.floats(-math.pi, math.pi)
 sizes = st.floats(-1e3, 1e3)
@@ -26,6 +34,16 @@ def test_products_and_length_are_those_of_complex_numbers(a, b):
 @given(a=vectors, angle=angles)
 def test_turning_is_to_starboard(a, angle):
     assert complex(*level_turned(a, angle)) == pytest.approx(complex(*a) * cmath.exp(1j * angle), abs=1e-9)
+
+
+@given(a=vectors, angle=angles)
+def test_along_a_unit_vector_is_turned_by_its_angle(a, angle):
+    ahead = (math.cos(angle), math.sin(angle))
+    assert level_along(a, ahead) == pytest.approx(level_turned(a, angle), abs=1e-9)
+    assert level_dot(ahead, level_along(a, ahead)) == pytest.approx(a[0], abs=1e-9), (
+        "and seen from it as it was"
+    )
+    assert level_cross(ahead, level_along(a, ahead)) == pytest.approx(a[1], abs=1e-9)
 
 
 @pytest.mark.parametrize("bearing", range(-179, 181, 3))

@@ -57,12 +57,16 @@ def circles_through(place, centres) -> tuple[Plot, NDArray[np.float64]]:
     return plot_of(centres, radii, np.linspace(0.3, 30.0, len(radii))), radii
 
 
+def not_along_a_line(centres) -> bool:
+    """Whether circles about these centres leave a single place, and not two that are as good but for rounding."""
+    return bool(np.linalg.svd(centres - np.mean(centres, axis=0), compute_uv=False)[-1] > 5.0)
+
+
 @given(places, st.lists(places, min_size=3, max_size=CIRCLES))
 def test_it_is_where_the_circles_meet(place, centres):
     plot, radii = circles_through(place, centres)
     assume(radii.min() > 1.0)
-    spread = np.array(centres) - np.mean(centres, axis=0)
-    assume(np.linalg.svd(spread, compute_uv=False)[-1] > 5.0)  # not along a line: a single place is left
+    assume(not_along_a_line(centres))
     one, other = told(plot)
     assert np.linalg.norm(one.place - place) < 1e-3 * radii.max()
     assert one.share > other.share
@@ -91,9 +95,7 @@ def test_it_turns_with_what_is_seen(place, centres, turn, heading):
     """Circles and bow turned alike: the same is seen from the vehicle."""
     plot, radii = circles_through(place, centres)
     assume(radii.min() > 1.0)
-    assume(
-        np.linalg.svd(centres - np.mean(centres, axis=0), compute_uv=False)[-1] > 5.0
-    )  # else it is by rounding
+    assume(not_along_a_line(centres))
 
     def turned(a, angle):
         return (
