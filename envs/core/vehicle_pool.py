@@ -16,6 +16,7 @@ from dq_marine.checks import whole_number
 from dq_marine.envs.core.currents import numbers_of
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.step import StepParameters
+from dq_marine.physics.weather.choice import weather_of_hull
 from dq_marine.randomisation import Randomisation
 from dq_marine.simulation.scene import Scene
 from dq_marine.simulation.settings import Settings
@@ -94,11 +95,15 @@ class VehiclePool:
 def prepared_pool(settings: Settings) -> VehiclePool:
     """Return the vehicles of settings with their numbers: the vehicle itself, or those drawn from it.
 
+    Sea and wind push drawn vessels that float as they push the one that these are drawn from.
+
     Raises:
         InvalidInputError: a vehicle cannot be integrated with the step, or the vehicles differ in what is computed, or
-            in how many numbers a sea's forces on them are made of.
+            in how many numbers their forces are made of.
     """
     vehicles = drawn_vehicles(settings)
+    if len(vehicles) > 1:  # what sea and wind make of a hull is not drawn
+        settings = replace(settings, weather=weather_of_hull(settings.weather, settings.flown))
     scenes: list[Scene] = []
     parameters: list[StepParameters] = []
     for number, vehicle in enumerate(vehicles):
@@ -142,8 +147,8 @@ def _check_last_is_computed_as_first(scenes: list[Scene], parameters: list[StepP
     size, wanted = pack(parameters[-1]).size, pack(parameters[0]).size
     if size != wanted:  # the last one's numbers would be read as if they were the first one's
         raise InvalidInputError(
-            f"drawn vehicle {number} answers to the sea by {size} numbers, vehicle 0 by {wanted}: hulls that "
-            "differ follow its waves by series of different lengths; leave randomise out, or the sea of the weather"
+            f"the forces on drawn vehicle {number} have {size} numbers, those on vehicle 0 {wanted}; give weather and "
+            "forces whose tables have the same length for all, or leave randomise out"
         )
 
 

@@ -79,13 +79,25 @@ class WaveLoads:
         """Return the forces on a vehicle in a current [m/s], shape (3,); the current takes no part."""
         sea = self.sea.in_gravity(vehicle.gravity)
         _warn_of_high_waves(sea, vehicle)
+        rao = self._transfer_functions(sea, vehicle)
+        return submerged_terms(sea, vehicle) if rao is None else (rao.term(sea),)
+
+    def of_hull(self, vehicle: Vehicle) -> WaveLoads:
+        """Return the loads of this sea on a vehicle's hull, for any other vehicle that has this hull.
+
+        Transfer functions are those of a hull. A submerged vehicle has none: its loads stay those of its own numbers.
+        """
+        rao = self._transfer_functions(self.sea.in_gravity(vehicle.gravity), vehicle)
+        return self if rao is None else WaveLoads(self.sea, rao)
+
+    def _transfer_functions(self, sea: Sea, vehicle: Vehicle) -> ForceRAO | None:
+        """Return what is given, else the long-wave approximation of a vehicle that floats."""
         if self.rao is not None:
-            return (self.rao.term(sea),)
+            return self.rao
         own = vehicle.waterplane_stiffness if self.stiffness is None else _checked_stiffness(self.stiffness)
         if own is None:
-            return submerged_terms(sea, vehicle)
-        radiation = self.radiation or radiation_of(vehicle)
-        return (long_wave_rao(sea, vehicle, own, radiation).term(sea),)
+            return None
+        return long_wave_rao(sea, vehicle, own, self.radiation or radiation_of(vehicle))
 
 
 def _warn_of_high_waves(sea: Sea, vehicle: Vehicle) -> None:

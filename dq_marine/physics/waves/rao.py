@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 
@@ -114,11 +115,12 @@ class ForceRAO:
         found: list[ComplexArray] = [np.zeros((1, 2, 6), dtype=np.complex128)] * len(frequencies)
         wanted = np.ones(len(frequencies), dtype=np.bool_)
         for order in range(min(MOST_HARMONICS, (len(self.headings) - 1) // 2) + 1):
-            coefficients, missed = self._fitted(values, order)
-            for j in np.flatnonzero(wanted):
-                found[j] = coefficients[j].reshape(order + 1, 2, 6)
-            error = np.sqrt(np.mean(np.abs(counts * missed) ** 2, axis=1))
-            wanted &= np.any(error > allowed, axis=1)
+            at = np.flatnonzero(wanted)
+            coefficients, missed = self._fitted(values[at], order)
+            for j, of_component in zip(at, coefficients, strict=True):
+                found[j] = of_component.reshape(order + 1, 2, 6)
+            error = np.sqrt(np.mean(np.abs(counts[at] * missed) ** 2, axis=1))
+            wanted[at] = np.any(error > allowed, axis=1)
         return found
 
     def _fitted(self, values: ComplexArray, order: int) -> tuple[ComplexArray, ComplexArray]:
@@ -130,9 +132,14 @@ class ForceRAO:
 
     def term(self, sea: Sea) -> ForceTerm:
         """Return the first-order force of a sea."""
-        series = self.series(sea.frequencies, sea.amplitudes)
-        scaled = [amplitude * one for amplitude, one in zip(sea.amplitudes, series, strict=True)]
-        parts = [np.stack([one.real, one.imag], axis=2).ravel() for one in scaled]
-        harmonics = table(np.array([float(len(one)) for one in series]))
-        parameters = WaveTransfer(sea.field, harmonics, table(np.concatenate(parts)))
-        return ForceTerm("waves", transferred_waves, parameters)
+        return ForceTerm("waves", transferred_waves, _transfer(self, sea))
+
+
+@functools.lru_cache(maxsize=1)
+def _transfer(rao: ForceRAO, sea: Sea) -> WaveTransfer:
+    """Return the parameters of the force; those of the last hull and sea are kept, for many vehicles of one hull."""
+    series = rao.series(sea.frequencies, sea.amplitudes)
+    scaled = [amplitude * one for amplitude, one in zip(sea.amplitudes, series, strict=True)]
+    parts = [np.stack([one.real, one.imag], axis=2).ravel() for one in scaled]
+    harmonics = table(np.array([float(len(one)) for one in series]))
+    return WaveTransfer(sea.field, harmonics, table(np.concatenate(parts)))

@@ -114,7 +114,7 @@ class SlowDrift:
             InvalidInputError: the vehicle is submerged, and no coefficients were given.
         """
         sea = self.sea.in_gravity(vehicle.gravity)
-        coefficients = self.coefficients or estimated_drift(sea, vehicle)
+        coefficients = self._coefficients(sea, vehicle)
         values = coefficients.at(sea.frequencies)
         roots = sea.amplitudes[:, None] * np.sqrt(np.abs(values))
         surge, sway, yaw = (
@@ -124,3 +124,14 @@ class SlowDrift:
         direction = sea.direction
         parameters = WaveDrift(sea.field, math.cos(direction), math.sin(direction), surge, sway, yaw)
         return (ForceTerm("slow drift", wave_drift, parameters),)
+
+    def of_hull(self, vehicle: Vehicle) -> SlowDrift:
+        """Return the force of this sea on a vehicle's hull, for any other vehicle that has this hull.
+
+        Raises:
+            InvalidInputError: the vehicle is submerged, and no coefficients were given.
+        """
+        return SlowDrift(self.sea, self._coefficients(self.sea.in_gravity(vehicle.gravity), vehicle))
+
+    def _coefficients(self, sea: Sea, vehicle: Vehicle) -> DriftCoefficients:
+        return self.coefficients or estimated_drift(sea, vehicle)

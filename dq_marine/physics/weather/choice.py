@@ -67,6 +67,15 @@ def weather_terms(
     return tuple(term for part in weather for term in part.terms(vehicle, current_ned))
 
 
+def weather_of_hull(weather: Sequence[Weather], vehicle: Vehicle) -> tuple[Weather, ...]:
+    """Return the weather with its forces as they are on a vehicle's hull, for others that are drawn from it.
+
+    Weather of your own asks each vehicle itself.
+    """
+    known = WaveLoads | SlowDrift | Wind
+    return tuple(part.of_hull(vehicle) if isinstance(part, known) else part for part in weather)
+
+
 def _made(part: Any) -> tuple[Weather, ...]:
     if isinstance(part, Mapping):
         return _from_dictionary(dict(part))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -157,7 +157,7 @@ class Wind:
         Raises:
             InvalidInputError: the vehicle is submerged, and no windage was given.
         """
-        hold = Windage.of(vehicle) if self.windage is None else self.windage
+        hold = self._windage(vehicle)
         height = max(hold.height, LOWEST)
         mean = max(mean_speed(self.speed, height), 0.0)
         parameters = WindForce(
@@ -172,3 +172,14 @@ class Wind:
         return (
             ForceTerm("wind", gusty_wind if self.changes else steady_wind, parameters, uses_velocity=True),
         )
+
+    def of_hull(self, vehicle: Vehicle) -> Wind:
+        """Return this wind on a vehicle's hull, for any other vehicle that has this hull.
+
+        Raises:
+            InvalidInputError: the vehicle is submerged, and no windage was given.
+        """
+        return replace(self, windage=self._windage(vehicle))
+
+    def _windage(self, vehicle: Vehicle) -> Windage:
+        return Windage.of(vehicle) if self.windage is None else self.windage

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from types import SimpleNamespace
 
 import gymnasium as gym
 import numpy as np
@@ -11,11 +12,19 @@ from support.environments import StationKeepingEnv
 from support.separate import Separate, assert_flights_agree
 
 import dq_marine  # noqa: F401 - registers
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.table import Table
+from dq_marine.backend.table_type import tables_in
+from dq_marine.envs.core.currents import numbers_of
 from dq_marine.errors import InvalidInputError
+from dq_marine.physics.term import ForceTerm
 from dq_marine.randomisation import Randomisation
+from dq_marine.simulation.scene import Scene
 
 ID = "dq_marine/StationKeeping-v0"
+POSITIONING = "dq_marine/DynamicPositioning-v0"
 POOL = {"randomise": "default", "vehicle_pool": 5, "vehicle_seed": 2}
+IN_A_SEA = POOL | {"level": "medium"}
 
 
 @pytest.fixture(scope="module")
@@ -165,12 +174,43 @@ def test_vessels_with_propellers_fly_as_each_alone():
     assert len(set(envs.get_attr("flown_vehicle"))) > 1
 
 
-def test_ships_that_answer_to_a_sea_by_different_tables_are_refused():
-    """One's numbers were read where another's are, alone; among many they were refused already."""
+def a_sea_of_ones_own(vehicle, current_ned):
+    """Weather whose table is the longer, the heavier the vehicle."""
+    table = Table([0.0] * int(vehicle.rigid_body.mass))
+    return (ForceTerm("own", tabled_force, (table,)),)
+
+
+def tabled_force(parameters, pose, time):
+    return Spatial((0.0, 0.0, 0.0), (parameters[0][0], 0.0, 0.0))
+
+
+def test_weather_that_answers_vehicles_by_tables_of_different_lengths_is_refused():
+    """One's numbers would be read where another's are."""
+    own = SimpleNamespace(changes=False, terms=a_sea_of_ones_own)
     with pytest.raises(
-        InvalidInputError, match=r"drawn vehicle \d answers to the sea by .* leave randomise out"
+        InvalidInputError, match=r"forces on drawn vehicle \d have .* same length for all, or leave randomise"
     ):
-        gym.make("dq_marine/DynamicPositioning-v0", level="medium", **POOL)
+        StationKeepingEnv(weather=[own], **POOL)
+
+
+def test_sea_and_wind_push_drawn_ships_as_the_one_they_are_drawn_from():
+    env = gym.make(POSITIONING, **IN_A_SEA).unwrapped
+    nominal = Scene.from_settings(env.settings)
+    assert {"waves", "slow drift", "wind"} <= set(nominal.terms)
+    wanted = numbers_of(nominal)
+    assert len(tables_in(wanted)) > 10
+    for parameters in env.pool.parameters:
+        assert parameters.inertia != wanted.inertia
+        assert tables_in(parameters) == tables_in(wanted)
+
+
+@pytest.mark.slow
+@pytest.mark.sweep
+def test_drawn_ships_in_a_sea_fly_as_each_alone():
+    keywords = IN_A_SEA | {"max_episode_steps": 6}
+    envs = gym.make_vec(POSITIONING, num_envs=9, **keywords)
+    assert_flights_agree(envs, Separate(9, POSITIONING, **keywords), 20, seed=3)
+    assert len(set(envs.get_attr("flown_vehicle"))) > 1
 
 
 def test_ships_of_a_pool_have_their_own_numbers():
