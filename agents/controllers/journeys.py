@@ -33,6 +33,7 @@ class Journey:
     """What all controllers of journeys have: a reader of what is shown, their settings, and an autopilot."""
 
     READS: ClassVar[tuple[str, ...]]
+    PRESET: ClassVar[str] = "autopilot"
 
     def __init__(
         self,
@@ -40,16 +41,16 @@ class Journey:
         autopilot: AutopilotSettings | None = None,
         also_reads: tuple[str, ...] = (),
     ) -> None:
-        """Prepare for an environment's vehicle; None reads the preset `autopilot`."""
+        """Prepare for an environment's vehicle; None reads the preset `PRESET`."""
         inner = marine(env)
         self._vehicle = inner.vehicle
         self._read = parts_reader(inner, (*self.READS, *also_reads))
-        self._settings = autopilot or read_settings("autopilot", AutopilotSettings)
+        self._settings = autopilot or read_settings(self.PRESET, AutopilotSettings)
         self._pilot = Autopilot(inner.vehicle, inner.control_period, inner.scene.actuation, self._settings)
 
     @classmethod
     def for_env(cls, env: gym.Env[Any, Any], settings: AutopilotSettings | None = None) -> Self:
-        """Return the controller for an environment's vehicle; None reads the preset `autopilot`."""
+        """Return the controller for an environment's vehicle; None reads the preset `PRESET`."""
         return cls(env, autopilot=settings)
 
     @property
@@ -139,6 +140,7 @@ class DepthHeadingController(Journey):
     """Brings a vehicle to the depth, the heading and the speed that are ordered."""
 
     READS: ClassVar[tuple[str, ...]] = ("deeper", "turn_cosine_sine", "speed_error", "ordered_speed", *MOTION)
+    PRESET: ClassVar[str] = "autopilot_by_orders"
 
     def act(self, observation: Observation) -> Action:
         """Return the action in [-1, 1], shape (n,)."""

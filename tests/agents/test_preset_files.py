@@ -44,6 +44,7 @@ def test_shipped_presets_are_valid() -> None:
         "TrajectoryTracking",
         "WaypointTracking",
         "autopilot",
+        "autopilot_by_orders",
         "avoidance",
         "crossq",
         "dp_controller",
@@ -57,6 +58,7 @@ def test_shipped_presets_are_valid() -> None:
     ]
     read_settings("dp_controller", ControllerSettings)
     read_settings("autopilot", AutopilotSettings)
+    read_settings("autopilot_by_orders", AutopilotSettings)
     read_settings("avoidance", AvoidanceSettings)
     for name in ALGORITHMS:
         assert read_settings(name, TrainingSettings).algorithm.name == name
@@ -143,8 +145,9 @@ def test_what_is_no_preset(tmp_path: Path) -> None:
         InvalidInputError,
         match="no preset or file 'ddpg'; the presets are Berthing, DepthHeading, Docking, DynamicPositioning, "
         "Encounter, FormationKeeping, ObstacleAvoidance, PathFollowing, PathFollowing_otter, PipelineInspection, "
-        "Rendezvous, StationKeeping, TerrainFollowing, TrajectoryTracking, WaypointTracking, autopilot, avoidance, "
-        "crossq, dp_controller, over_ground, ppo, recurrent_ppo, sac, td3, tqc, trajectory",
+        "Rendezvous, StationKeeping, TerrainFollowing, TrajectoryTracking, WaypointTracking, autopilot, "
+        "autopilot_by_orders, avoidance, crossq, dp_controller, over_ground, ppo, recurrent_ppo, sac, td3, tqc, "
+        "trajectory",
     ):
         read_settings("ddpg", TrainingSettings)
     path = tmp_path / "mine.toml"
