@@ -68,6 +68,8 @@ class AutopilotSettings(Settings):
         angle_of_fastest_rate: angle error that asks for no more than the fastest rate against damping [rad].
         integral_rate: of the rate loop's integral, over the same.
         tightest_turn: radius of the tightest turn that is asked for [vehicle lengths].
+        share_of_fastest_turn: largest turn rate that is asked for, over the fastest that full moment holds against
+            damping; None for no such limit.
         steepest_pitch: largest pitch that is asked for [rad].
         shortest_look_ahead: of the line of sight [vehicle lengths].
         look_ahead_time: of the line of sight, over the time constant of the angle loop.
@@ -88,6 +90,7 @@ class AutopilotSettings(Settings):
     angle_of_fastest_rate: Positive
     integral_rate: NonNegative
     tightest_turn: Positive
+    share_of_fastest_turn: Positive | None = None
     steepest_pitch: Annotated[Number, Field(gt=0.0, lt=1.5)]
     shortest_look_ahead: Positive
     look_ahead_time: Positive

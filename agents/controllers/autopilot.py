@@ -206,7 +206,9 @@ class Autopilot:
 
     def _fastest_turn(self, speed: float) -> float:
         """Return the largest turn rate that is asked for at a speed [rad/s]."""
-        return max(speed, 0.3 * self.top_speed) / (self.settings.tightest_turn * self.length)
+        rate = max(speed, 0.3 * self.top_speed) / (self.settings.tightest_turn * self.length)
+        share = self.settings.share_of_fastest_turn
+        return rate if share is None else min(rate, share * self._fastest_rates[YAW])
 
     def _against_turning(self, turn: float) -> float:
         """Return the moment that damping takes at a turn rate, half of the limit at most [N m]."""

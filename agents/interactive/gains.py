@@ -73,12 +73,12 @@ def _preset(agent: Agent) -> Settings | None:
 
 
 def _numbers(settings: Settings, *tables: str) -> Iterator[tuple[tuple[str, ...], float, list[Any]]]:
-    """Yield the path of each number, the number, and its bounds."""
+    """Yield the path of each number that is given, the number, and its bounds."""
     for name, field in type(settings).model_fields.items():
         value = getattr(settings, name)
         if isinstance(value, Settings):
             yield from _numbers(value, *tables, name)
-        else:
+        elif value is not None:
             yield (*tables, name), value, field.metadata
 
 

@@ -44,6 +44,12 @@ def test_each_is_small_and_was_trained_as_its_preset_says(name: str) -> None:
     assert TrainingSettings.model_validate(tomllib.loads(preset)) == settings
 
 
+@pytest.mark.parametrize("name", sorted({*shipped_policies()} - {"Encounter"}))
+def test_vehicles_are_drawn_at_random_where_a_policy_is_trained(name: str) -> None:
+    """Not for Encounter, which gained nothing by it: see docs/howto/shipped_policies.md."""
+    assert trained_environment(name).keywords["randomise"] in ("within_20_percent", "default")
+
+
 @pytest.mark.parametrize("name", sweep(shipped_policies(), plain=["StationKeeping"]))
 def test_each_succeeds_in_episodes_that_it_has_never_seen(name: str) -> None:
     path = policy_path(name)
