@@ -78,6 +78,15 @@ def test_autopilots_are_tuned_too(task: str, name: str, value: float) -> None:
     agents["controller"].act(env.observation)
 
 
+def test_a_limit_that_is_not_given_has_no_slider() -> None:
+    def labels(task: str) -> set[str]:
+        agent = make_baseline("controller", begun(task))
+        (group,) = Gains({"controller": agent}).groups()
+        return {slider.label for slider in group.controls}
+
+    assert labels("DepthHeading") - labels("PathFollowing") == {"share of fastest turn"}
+
+
 def test_who_has_no_such_numbers_has_no_sliders() -> None:
     gains = Gains({"zero": ZeroAgent(6)})
     assert gains.groups() == ()
