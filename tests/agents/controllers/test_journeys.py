@@ -47,7 +47,6 @@ def test_the_baseline_does_the_task_in_currents(task, name):
         assert episode.success, f"seed {seed}: {episode.measured}"
 
 
-@pytest.mark.sweep
 @pytest.mark.parametrize("seed", sweep([5_000_021, 5_000_037, 5_000_048], plain=[5_000_021]))
 def test_orders_are_obeyed_by_vehicles_that_could_not_stop_a_fast_turn(seed):
     """These are up to 20 % off the file of theirs, and swung to and fro for a minute."""
@@ -55,6 +54,7 @@ def test_orders_are_obeyed_by_vehicles_that_could_not_stop_a_fast_turn(seed):
     assert fly_episode(env, controller_for(env), seed=seed).success
 
 
+@pytest.mark.sweep
 def test_an_agent_that_drifts_does_none_of_them():
     """The tasks are not done by themselves."""
     for task in ("PathFollowing", "DepthHeading", "WaypointTracking"):
