@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dq_marine.agents.algorithm_settings import RolloutSettings
 from dq_marine.agents.preset_files import read_settings, validate_settings
-from dq_marine.agents.settings import IMITATING, TrainingSettings
+from dq_marine.agents.settings import ImitationSettings, TrainingSettings
 
 OF_THE_TASK = (
     ("algorithm", "gamma"),
@@ -19,8 +19,9 @@ def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
     """Return settings to learn the same with the preset that an algorithm is known by.
 
     The task's are the environment and how it differs while it is learned in, how far ahead returns look, which things
-    in an observation are read alike, the logarithm before its normalisation, lessons, and what the critic sees; and the
-    copy that learning begins with, for algorithms that can begin as one. Steps, rates and networks are the algorithm's.
+    in an observation are read alike, the logarithm before its normalisation, lessons, what the critic sees, and the
+    copy that learning begins with. Steps, rates and networks are the algorithm's. One that learns from a memory begins
+    as a copy of the controller in any case: the few steps that it takes are too few to find out most tasks.
 
     Args:
         task: settings of the task, for whichever algorithm.
@@ -34,7 +35,9 @@ def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
         content[name] = of_task[name]
     for table, name in OF_THE_TASK:
         content[table][name] = of_task[table][name]
-    if algorithm in IMITATING and isinstance(task.algorithm, RolloutSettings):
-        content["imitation"] = of_task["imitation"]
+    content["imitation"] = of_task["imitation"]
+    if content["imitation"] is None and "buffer_size" in content["algorithm"]:
+        content["imitation"] = ImitationSettings().model_dump()
+    if isinstance(task.algorithm, RolloutSettings) and "log_std_init" in content["algorithm"]:
         content["algorithm"]["log_std_init"] = task.algorithm.log_std_init
     return validate_settings(content, TrainingSettings, source=f"what was asked for, with {algorithm}")

@@ -1,48 +1,72 @@
 """Train tasks by several algorithms, and fly what each has learned through episodes that it has never seen.
 
-Run: python benchmarks/algorithms.py [--preset NAME ...] [--algorithm NAME ...] [--episodes N] [--runs FOLDER]
+Run: python benchmarks/algorithms.py [--preset NAME ...] [--algorithm NAME ...] [--all-by NAME] [--timesteps N]
+                                     [--episodes N] [--runs FOLDER]
 
 Each run is that of `dq-marine train --preset NAME --algorithm NAME --run FOLDER/NAME-NAME`; one that is in the folder
-already, and has ended, is not trained again. Writes the table of docs/howto/algorithms.md, between its words.
+already, and has ended, is not trained again. Writes the table of docs/howto/algorithms.md, between its words. The best
+model is the one of the best evaluation while it was trained; where that came after 0 timesteps, it is the copy.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
+import argparse
+from collections.abc import Sequence
 
 from suite import blocks, circumstances, trainings
 from suite.tables import table
 
+from dq_marine.agents.policy_names import shipped_policies
+from dq_marine.agents.training.run_folder import RunFolder
 from dq_marine.util.files import write_whole
 
 PAGE = circumstances.ROOT / "docs" / "howto" / "algorithms.md"
-ALGORITHMS = ("ppo", "sac", "td3", "tqc", "crossq")
+FROM_MEMORY = ("sac", "td3", "tqc", "crossq")
+ALGORITHMS = ("ppo", *FROM_MEMORY)
 DEFAULT_PRESETS = ("WaypointTracking", "DepthHeading", "PathFollowing", "PathFollowing_otter")
 """A vehicle with many thrusters, a torpedo twice, and a surface vessel."""
 
 
-def row(preset: str, algorithm: str, episodes: int, runs: Path) -> list[str]:
+HEADER = ["preset", "algorithm", "timesteps", *trainings.TIMES, "best after", "success"]
+
+
+def row(preset: str, algorithm: str, wanted: argparse.Namespace) -> list[str]:
     """Return what an algorithm made of a task, as the cells of a row."""
-    folder = runs / f"{preset}-{algorithm}"
-    run = trainings.trained(["--preset", preset, "--algorithm", algorithm], folder)
-    found = trainings.successes(folder, folder, episodes)
+    folder = wanted.runs / f"{preset}-{algorithm}"
+    asked = ["--preset", preset, "--algorithm", algorithm]
+    if wanted.timesteps and algorithm in FROM_MEMORY:
+        asked += ["--timesteps", str(wanted.timesteps)]
+    run = trainings.trained(asked, folder)
+    found = trainings.successes(folder, folder, wanted.episodes)
+    best = RunFolder(folder).progress("best").timesteps
     cost = [f"{run['timesteps']:,}", *trainings.times_of(run)]
-    return [preset, algorithm, *cost, f"{found} of {episodes}"]
+    return [preset, algorithm, *cost, f"{best:,}", f"{found} of {wanted.episodes}"]
 
 
 def main() -> None:
     """Train, fly, and write the table into the page."""
     parser = trainings.options(__doc__, episodes=100)
     parser.add_argument("--algorithm", action="append", choices=ALGORITHMS)
+    parser.add_argument("--all-by", choices=ALGORITHMS, help="besides, train every preset by this algorithm")
+    parser.add_argument("--timesteps", type=int, help="of algorithms that learn from a memory")
     wanted = parser.parse_args()
     presets, algorithms = wanted.preset or DEFAULT_PRESETS, wanted.algorithm or ALGORITHMS
-    rows = [row(preset, one, wanted.episodes, wanted.runs) for preset in presets for one in algorithms]
-    header = ["preset", "algorithm", "timesteps", *trainings.TIMES, "success"]
-    chosen = [f"--preset {one}" for one in presets] + [f"--algorithm {one}" for one in algorithms]
-    command = f"benchmarks/algorithms.py {' '.join(chosen)} --episodes {wanted.episodes}"
-    content = f"{blocks.provenance(command)}\n{table(header, rows)}\n"
+    pairs = [(preset, one) for preset in presets for one in algorithms]
+    if wanted.all_by:
+        pairs += [(preset, wanted.all_by) for preset in shipped_policies()]
+    rows = [row(preset, one, wanted) for preset, one in dict.fromkeys(pairs)]
+    command = f"benchmarks/algorithms.py {' '.join(_said(wanted, presets, algorithms))}"
+    content = f"{blocks.provenance(command)}\n{table(HEADER, rows)}\n"
     page = PAGE.read_text(encoding="utf-8")
     write_whole(PAGE, blocks.with_block(page, "benchmarks/algorithms.py", content))
+
+
+def _said(wanted: argparse.Namespace, presets: Sequence[str], algorithms: Sequence[str]) -> list[str]:
+    """Return the options that bring the same about."""
+    said = [f"--preset {one}" for one in presets] + [f"--algorithm {one}" for one in algorithms]
+    said += [f"--all-by {wanted.all_by}"] if wanted.all_by else []
+    said += [f"--timesteps {wanted.timesteps}"] if wanted.timesteps else []
+    return [*said, f"--episodes {wanted.episodes}"]
 
 
 if __name__ == "__main__":

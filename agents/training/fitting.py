@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
     import torch
-    from stable_baselines3.common.policies import ActorCriticPolicy
+    from stable_baselines3.common.policies import ActorCriticPolicy, BasePolicy
     from stable_baselines3.common.vec_env import VecNormalize
 
 HELD_BACK = 0.1
@@ -32,24 +32,58 @@ def fit_steps(
     observations, _ = policy.obs_to_tensor(envs.normalize_obs(lessons.observations))
     actions = torch.as_tensor(lessons.actions)
     returns = scaled_returns(envs, lessons)
-    held_back, learned = np.split(random.permutation(len(actions)), [max(1, round(HELD_BACK * len(actions)))])
-    optimiser = torch.optim.Adam(policy.parameters(), lr=imitation.learning_rate)
+
+    def terms(batch: NDArray[np.int64]) -> list[torch.Tensor]:
+        mean, values = _foretold(policy, rows_of(observations, batch))
+        return terms_of_loss(mean, actions[batch], values, returns[batch])
+
+    held_back = learn_in_batches(policy, policy, len(actions), terms, imitation, random)
+    looked_at = with_actions(held_back, lessons)
+    with torch.no_grad():
+        mean, _ = _foretold(policy, rows_of(observations, looked_at))
+        return float(torch.nn.functional.mse_loss(mean, actions[looked_at]))
+
+
+def learn_in_batches(
+    policy: BasePolicy,
+    network: torch.nn.Module,
+    count: int,
+    terms: Callable[[NDArray[np.int64]], list[torch.Tensor]],
+    imitation: ImitationSettings,
+    random: np.random.Generator,
+) -> NDArray[np.int64]:
+    """Let a network make terms small, over rows in batches.
+
+    Args:
+        policy: that the network is of.
+        network: whose parameters are fitted; it may be all of the policy.
+        count: of the rows.
+        terms: of the loss for some rows; none where nothing of these is known.
+        imitation: how often they are gone through, in batches of which size, and at which rate.
+        random: their order.
+
+    Returns:
+        The rows that were held back.
+    """
+    held_back, learned = np.split(random.permutation(count), [max(1, round(HELD_BACK * count))])
+    optimiser = torch.optim.Adam(network.parameters(), lr=imitation.learning_rate)
     policy.set_training_mode(True)
     for rate, batch in _batches(learned, imitation, random):
         optimiser.param_groups[0]["lr"] = rate
-        mean, values = _foretold(policy, rows_of(observations, batch))
-        terms = terms_of_loss(mean, actions[batch], values, returns[batch])
-        if not terms:
+        found = terms(batch)
+        if not found:
             continue
         optimiser.zero_grad()
-        sum(terms[1:], terms[0]).backward()  # type: ignore[no-untyped-call]
+        sum(found[1:], found[0]).backward()  # type: ignore[no-untyped-call]
         optimiser.step()
     policy.set_training_mode(False)
-    with torch.no_grad():
-        told = held_back[np.isfinite(lessons.actions[held_back, 0])]
-        looked_at = told if len(told) else np.flatnonzero(np.isfinite(lessons.actions[:, 0]))
-        mean, _ = _foretold(policy, rows_of(observations, looked_at))
-        return float(torch.nn.functional.mse_loss(mean, actions[looked_at]))
+    return held_back
+
+
+def with_actions(rows: NDArray[np.int64], lessons: Lessons) -> NDArray[np.int64]:
+    """Return those of the rows whose actions are learned from, or all such where none of these is one."""
+    told = rows[np.isfinite(lessons.actions[rows, 0])]
+    return told if len(told) else np.flatnonzero(np.isfinite(lessons.actions[:, 0]))
 
 
 def _batches(

@@ -5,6 +5,8 @@ The teacher's actions are disturbed while it flies, so that the pupil sees how o
 itself would never be (Laskey et al. 2017, DART, CoRL). Where the pupil still goes astray, it flies itself in further
 rounds, and learns what the teacher would have done there (Ross et al. 2011, DAgger, AISTATS). A critic that knew
 nothing would lead the first updates away from what was copied, so it is fitted to the discounted returns.
+
+An algorithm that learns from a memory remembers what was flown, and keeps to its copy while it learns (`keeping`).
 """
 
 from __future__ import annotations
@@ -18,14 +20,20 @@ from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.settings import ImitationSettings, TrainingSettings
 from dq_marine.agents.training.algorithms import Model
 from dq_marine.agents.training.fitting import fit_steps
+from dq_marine.agents.training.fitting_replay import fit_actor, fit_critics, remember
+from dq_marine.agents.training.keeping import keep_copy
 from dq_marine.agents.training.recurrent_decision import RememberingPupil
 from dq_marine.agents.training.teaching import TEACHING_SEED, Lessons, Pupil, taught
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
-    from stable_baselines3.common.policies import ActorCriticPolicy
+    from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
+    from stable_baselines3.common.policies import ActorCriticPolicy, BasePolicy
     from stable_baselines3.common.vec_env import VecNormalize
+
+KEEPING = 0.4
+"""How much a copy counts where settings say nothing: 1 over the 2.5 of Fujimoto and Gu 2021 (arXiv:2106.06860)."""
 
 SETTLED = 1e15
 """Number of observations that statistics are said to be of, so that those to come do not change them."""
@@ -44,7 +52,8 @@ def imitate(
     """Let a model that has learned nothing begin as the copy of a baseline.
 
     Args:
-        model: of PPO or recurrent PPO, in its normalised environments, whose statistics become those of what was flown.
+        model: in its normalised environments, whose statistics become those of what was flown. One that learns from a
+            memory remembers what was flown, too.
         settings: of the training, with `imitation`.
         seed: of the training: what is disturbed and in which order it is learned follow from it.
         say: is told what is being done.
@@ -53,13 +62,11 @@ def imitate(
         The mean square difference of the actions, over episodes and axes, of what it did not learn from.
 
     Raises:
-        InvalidInputError: the teacher cannot fly in this environment, or the algorithm cannot imitate.
+        InvalidInputError: the teacher cannot fly in this environment, or there are no settings of imitation.
     """
     policy, envs, imitation = model.policy, model.get_vec_normalize_env(), settings.imitation
-    if not isinstance(policy, ActorCriticPolicy) or envs is None or imitation is None:
-        raise InvalidInputError(
-            f"{settings.algorithm.name} cannot begin as a copy; train with ppo or recurrent_ppo"
-        )
+    if envs is None or imitation is None:
+        raise InvalidInputError("there is nothing to imitate by; give settings with imitation")
     fit, make_pupil = _learner_of(policy)
     flying = np.random.default_rng([seed, TEACHING_SEED])
     learning = np.random.default_rng([seed, TEACHING_SEED + 1])
@@ -79,16 +86,21 @@ def imitate(
         difference = fit(policy, envs, lessons, imitation, learning)
     if imitation.rounds:
         _settle_statistics(envs)
+    if isinstance(model, OffPolicyAlgorithm):
+        say("what that earns is learned")
+        fit_critics(model, envs, lessons, imitation, learning)
+        remember(model, lessons)
+        keep_copy(model, KEEPING if imitation.keeping is None else imitation.keeping)
     return difference
 
 
-def _learner_of(policy: ActorCriticPolicy) -> tuple[Fit, MakePupil]:
-    """Return what fits a policy, one with a memory or without, and what lets it fly."""
+def _learner_of(policy: BasePolicy) -> tuple[Fit, MakePupil]:
+    """Return what fits a policy, and what lets it fly."""
     if hasattr(policy, "lstm_actor"):
         from dq_marine.agents.training.fitting_memory import fit_episodes  # here: it imports sb3-contrib
 
         return fit_episodes, RememberingPupil
-    return fit_steps, Pupil
+    return fit_steps if isinstance(policy, ActorCriticPolicy) else fit_actor, Pupil
 
 
 def _take_statistics(envs: VecNormalize, lessons: Lessons) -> None:

@@ -22,6 +22,7 @@ from dq_marine.agents.training.algorithms import (
     policy_name,
     privileged_policy,
 )
+from dq_marine.agents.training.keeping import go_on_keeping
 from dq_marine.agents.training.reward_sums import RewardSums
 from dq_marine.agents.training.run_folder import MODEL_FILE, NORMALISATION_FILE, REPLAY_BUFFER_FILE
 from dq_marine.agents.training.symlog import SymlogNormalize
@@ -133,6 +134,7 @@ def load_model(settings: TrainingSettings, folder: Path, seed: int, tensorboard:
         model.set_random_seed(seed)
         if isinstance(model, OffPolicyAlgorithm):
             model.load_replay_buffer(folder / REPLAY_BUFFER_FILE)
+            go_on_keeping(model)
     return model
 
 

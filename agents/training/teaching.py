@@ -24,7 +24,7 @@ from dq_marine.agents.settings import ImitationSettings, TrainingSettings
 from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
-    from stable_baselines3.common.policies import ActorCriticPolicy
+    from stable_baselines3.common.policies import BasePolicy
     from stable_baselines3.common.vec_env import VecNormalize
 
 TEACHING_SEED = 3_000_000
@@ -48,6 +48,10 @@ class Lessons:
         running: what `VecNormalize` sums up of rewards, by which it divides them, shape (n,).
         lengths: of the episodes, one after the other [control periods].
         estimates: what the teacher has found out that no observation shows, shape (n, k); k is 0 if it tells of none.
+        flown: what was done, disturbed, shape (n, axes).
+        rewards: for it, shape (n,).
+        ends: observations that episodes ended with, one for each, like `observations`.
+        terminated: whether an episode ended by itself, not by the time limit, shape (episodes,).
     """
 
     observations: Observations
@@ -56,6 +60,10 @@ class Lessons:
     running: NDArray[np.float64]
     lengths: NDArray[np.int64]
     estimates: NDArray[np.float32]
+    flown: NDArray[np.float32]
+    rewards: NDArray[np.float64]
+    ends: Observations
+    terminated: NDArray[np.bool_]
 
     def told_in(self, episodes: NDArray[np.int64]) -> bool:
         """Whether one of the episodes has an action that is learned from; the teacher's own first ones have."""
@@ -71,13 +79,17 @@ class Lessons:
             np.concatenate([self.running, others.running]),
             np.concatenate([self.lengths, others.lengths]),
             np.concatenate([self.estimates, others.estimates]),
+            np.concatenate([self.flown, others.flown]),
+            np.concatenate([self.rewards, others.rewards]),
+            _both(self.ends, others.ends),
+            np.concatenate([self.terminated, others.terminated]),
         )
 
 
 class Pupil:
     """What a policy without a memory does by now, as an agent."""
 
-    def __init__(self, policy: ActorCriticPolicy, envs: VecNormalize) -> None:
+    def __init__(self, policy: BasePolicy, envs: VecNormalize) -> None:
         """Take the policy and the environments that normalise what it sees."""
         self._policy, self._envs = policy, envs
 
@@ -132,8 +144,8 @@ def taught(
             notes.take(observation, wanted if counts else None, estimate_of(teacher))
             disturbed = with_noise(wanted if teacher_flies else flown, imitation.noise, random)
             observation, reward, terminated, truncated, _ = env.step(disturbed)
-            notes.reward(float(reward))
-        notes.end_episode(whole=terminated)
+            notes.outcome(disturbed, float(reward))
+        notes.end_episode(observation, whole=terminated)
     env.close()
     return notes.lessons()
 
@@ -147,9 +159,12 @@ class _Notes:
         self._observations: list[Any] = []
         self._actions: list[Any] = []
         self._estimates: list[NDArray[np.float64]] = []
-        self._rewards: list[float] = []
+        self._flown: list[Any] = []
+        self._rewards: list[list[float]] = [[]]
         self._returns: list[NDArray[np.float64]] = []
         self._running: list[NDArray[np.float64]] = []
+        self._ends: list[Any] = []
+        self._whole: list[bool] = []
 
     def take(self, observation: Any, wanted: Any | None, estimate: NDArray[np.float64]) -> None:
         """Take down the beginning of a period; None is an action that is not learned from."""
@@ -157,15 +172,18 @@ class _Notes:
         self._actions.append(self._unknown if wanted is None else wanted)
         self._estimates.append(estimate)
 
-    def reward(self, reward: float) -> None:
-        """Take down what the period earned."""
-        self._rewards.append(reward)
+    def outcome(self, flown: Any, reward: float) -> None:
+        """Take down what was done in the period, and what that earned."""
+        self._flown.append(flown)
+        self._rewards[-1].append(reward)
 
-    def end_episode(self, *, whole: bool) -> None:
-        """Take down that an episode has ended, by itself or by the time limit."""
-        self._returns.append(_returns(self._rewards, self._gamma, whole=whole))
-        self._running.append(_discounted(self._rewards, self._gamma))
-        self._rewards = []
+    def end_episode(self, observation: Any, *, whole: bool) -> None:
+        """Take down with what an episode has ended, by itself or by the time limit."""
+        self._returns.append(_returns(self._rewards[-1], self._gamma, whole=whole))
+        self._running.append(_discounted(self._rewards[-1], self._gamma))
+        self._ends.append(observation)
+        self._whole.append(whole)
+        self._rewards.append([])
 
     def lessons(self) -> Lessons:
         """Return all of it."""
@@ -176,6 +194,10 @@ class _Notes:
             np.concatenate(self._running),
             np.array([len(rewards) for rewards in self._running], dtype=np.int64),
             np.array(self._estimates, dtype=np.float32).reshape(len(self._actions), -1),
+            np.array(self._flown, dtype=np.float32),
+            np.concatenate(self._rewards),
+            _stacked(self._ends),
+            np.array(self._whole),
         )
 
 

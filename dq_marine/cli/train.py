@@ -70,8 +70,7 @@ def train(
         typer.Option(
             "--imitate",
             metavar="BASELINE",
-            help="Begin as a copy of controller, lqr or mpc, and learn from there. With ppo or recurrent_ppo; how, "
-            "[imitation] in a preset says.",
+            help="Begin as a copy of controller, lqr or mpc, and learn from there; how, [imitation] in a preset says.",
             show_default="none, or the preset's",
         ),
     ] = None,

@@ -89,9 +89,9 @@ def remembering(rng: np.random.Generator, episodes: int = 64, length: int = 30) 
     actions = np.repeat(told, length).astype(np.float32)[:, None]
     unknown = np.full(episodes * length, np.nan)
     lengths, estimates = np.full(episodes, length), np.zeros((episodes * length, 0), np.float32)
-    return Lessons(
-        observations.reshape(-1, 3), actions, unknown, np.zeros(episodes * length), lengths, estimates
-    )
+    nothing, ends, cut_off = np.zeros(episodes * length), observations[:, -1], np.zeros(episodes, bool)
+    seen = observations.reshape(-1, 3)
+    return Lessons(seen, actions, unknown, nothing, lengths, estimates, actions, nothing, ends, cut_off)
 
 
 class Spaces(gym.Env[Any, Any]):

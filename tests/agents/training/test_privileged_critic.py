@@ -159,7 +159,7 @@ def test_a_run_is_resumed_with_its_critic(tmp_path: Path, console: Console) -> N
     assert PRIVILEGED in TrainedPolicy(folder).model.observation_space.spaces
 
 
-@pytest.mark.parametrize("algorithm", ["ppo", "recurrent_ppo"])
+@pytest.mark.parametrize("algorithm", sweep(ABLE, plain=["ppo", "sac", "recurrent_ppo"]))
 def test_a_copy_of_a_teacher_is_made_without_it_and_its_critic_with_it(
     algorithm: str, tmp_path: Path
 ) -> None:
