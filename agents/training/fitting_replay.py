@@ -1,8 +1,4 @@
-"""Fitting what learns from all it remembers, such as SAC: the actor to a teacher, critics to what was earned.
-
-What was flown is remembered, too, so that learning goes on from it rather than from actions at random (Vecerik et al.
-2017, arXiv:1707.08817; Ball et al. 2023, arXiv:2302.02948).
-"""
+"""Fitting what learns from all it remembers, such as SAC: the actor to a teacher, critics to what was earned."""
 
 from __future__ import annotations
 
@@ -19,8 +15,7 @@ from dq_marine.agents.training.fitting import (
     scaled_returns,
     with_actions,
 )
-from dq_marine.agents.training.teaching import Lessons, Observations
-from dq_marine.errors import InvalidInputError
+from dq_marine.agents.training.teaching import Lessons
 from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
@@ -112,45 +107,3 @@ def _missed(told: torch.Tensor, earned: torch.Tensor) -> torch.Tensor:
     from sb3_contrib.common.utils import quantile_huber_loss  # here: only its critics tell quantiles
 
     return quantile_huber_loss(told, earned[:, None], sum_over_quantiles=False)
-
-
-def remember(model: OffPolicyAlgorithm, lessons: Lessons) -> None:
-    """Let a model remember what was flown, and learn from its first step on: none is at random any more.
-
-    Memory takes as many periods at a time as there are environments; what is left over of the last is not remembered.
-    """
-    model.learning_starts = 0
-    buffer, envs, count = model.replay_buffer, model.n_envs, len(lessons.rewards)
-    if buffer is None:
-        raise InvalidInputError(
-            f"{type(model).__name__} remembers nothing yet; let it set up its model first"
-        )
-    last = np.cumsum(lessons.lengths) - 1
-    done, cut_off = np.zeros(count, bool), np.zeros(count, bool)
-    done[last], cut_off[last] = True, ~lessons.terminated
-    following = _following(lessons.observations, lessons.ends, last)
-    scaled = model.policy.scale_action(lessons.flown)
-    for first in range(0, count - envs + 1, envs):
-        rows = np.arange(first, first + envs)
-        infos = [{"TimeLimit.truncated": bool(cut_off[row])} for row in rows]
-        buffer.add(
-            rows_of(lessons.observations, rows),
-            rows_of(following, rows),
-            scaled[rows],
-            lessons.rewards[rows],
-            done[rows],
-            infos,
-        )
-
-
-def _following(observations: Observations, ends: Observations, last: NDArray[np.int64]) -> Observations:
-    """Return the observation after each period: that of the next, or what an episode ended with."""
-    if isinstance(observations, dict):
-        return {name: _after(values, ends[name], last) for name, values in observations.items()}
-    return _after(observations, ends, last)
-
-
-def _after(values: NDArray[Any], ends: Any, last: NDArray[np.int64]) -> NDArray[Any]:
-    after = np.roll(values, -1, axis=0)
-    after[last] = ends
-    return after

@@ -20,9 +20,10 @@ from dq_marine.agents.controllers.baselines import Agent
 from dq_marine.agents.settings import ImitationSettings, TrainingSettings
 from dq_marine.agents.training.algorithms import Model
 from dq_marine.agents.training.fitting import fit_steps
-from dq_marine.agents.training.fitting_replay import fit_actor, fit_critics, remember
+from dq_marine.agents.training.fitting_replay import fit_actor, fit_critics
 from dq_marine.agents.training.keeping import keep_copy
 from dq_marine.agents.training.recurrent_decision import RememberingPupil
+from dq_marine.agents.training.remembering import remember
 from dq_marine.agents.training.teaching import TEACHING_SEED, Lessons, Pupil, taught
 from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed

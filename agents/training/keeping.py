@@ -53,7 +53,7 @@ def go_on_keeping(model: OffPolicyAlgorithm) -> None:
         for parameter in policy.actor.parameters():
             if parameter.grad is not None:
                 parameter.grad /= magnitude
-        (keeping * mse_loss(own, copied)).backward()  # type: ignore[no-untyped-call]
+        (keeping * mse_loss(own, copied)).backward()
 
     policy.actor.optimizer.register_step_pre_hook(pull)
 

@@ -12,10 +12,11 @@ from rich.console import Console
 from support.trainings import REMEMBERING, tiny
 
 from dq_marine.agents.settings import ImitationSettings, NetworkSettings, TrainingSettings
-from dq_marine.agents.training.fitting_replay import acted, remember, values
+from dq_marine.agents.training.fitting_replay import acted, values
 from dq_marine.agents.training.imitation import imitate
 from dq_marine.agents.training.keeping import KEPT
 from dq_marine.agents.training.learners import environments_of, load_model, make_model, save_model
+from dq_marine.agents.training.remembering import remember
 from dq_marine.agents.training.run_folder import RunFolder
 from dq_marine.agents.training.teaching import taught
 from dq_marine.agents.training.training import begin_training, resume_training
