@@ -14,6 +14,12 @@ OF_THE_TASK = (
 )
 """Settings within tables that belong to the task."""
 
+STEPS_FROM_COPY = 20_000
+"""That an algorithm which learns from a memory takes after it began as a copy; it is evaluated after each tenth."""
+
+RATE_FROM_COPY = 2e-4
+"""At which it begins to learn then: a fifth of that from nothing, or the copy would be lost."""
+
 
 def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
     """Return settings to learn the same with the preset that an algorithm is known by.
@@ -21,7 +27,8 @@ def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
     The task's are the environment and how it differs while it is learned in, how far ahead returns look, which things
     in an observation are read alike, the logarithm before its normalisation, lessons, what the critic sees, and the
     copy that learning begins with. Steps, rates and networks are the algorithm's. One that learns from a memory begins
-    as a copy of the controller in any case: the few steps that it takes are too few to find out most tasks.
+    as a copy of the controller in any case, because the steps that it can take are too few to find out most tasks; it
+    then goes on by few and small ones.
 
     Args:
         task: settings of the task, for whichever algorithm.
@@ -36,8 +43,11 @@ def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
     for table, name in OF_THE_TASK:
         content[table][name] = of_task[table][name]
     content["imitation"] = of_task["imitation"]
-    if content["imitation"] is None and "buffer_size" in content["algorithm"]:
-        content["imitation"] = ImitationSettings().model_dump()
+    if "buffer_size" in content["algorithm"]:
+        content["imitation"] = content["imitation"] or ImitationSettings().model_dump()
+        content["timesteps"] = STEPS_FROM_COPY
+        content["evaluation"]["every"] = STEPS_FROM_COPY // 10
+        content["algorithm"] |= {"learning_rate": RATE_FROM_COPY, "learning_starts": 0}
     if isinstance(task.algorithm, RolloutSettings) and "log_std_init" in content["algorithm"]:
         content["algorithm"]["log_std_init"] = task.algorithm.log_std_init
     return validate_settings(content, TrainingSettings, source=f"what was asked for, with {algorithm}")

@@ -241,7 +241,7 @@ class ImitationSettings(Settings):
         forgetful: whether the teacher forgets before each period what came before. What it does then follows from what
             is seen alone, as what the policy does will, whoever has flown; it must be able to fly so.
         keeping: how much it costs, where a memory is learned from, to do other than the copy did: the mean square of
-            the difference counts so many times as much as values over their mean magnitude. None is 0.4; PPO, which
+            the difference counts so many times as much as values over their mean magnitude. None is 4; PPO, which
             takes small steps, has none.
     """
 

@@ -33,8 +33,9 @@ with extra_needed("training", "agents"):
     from stable_baselines3.common.policies import ActorCriticPolicy, BasePolicy
     from stable_baselines3.common.vec_env import VecNormalize
 
-KEEPING = 0.4
-"""How much a copy counts where settings say nothing: 1 over the 2.5 of Fujimoto and Gu 2021 (arXiv:2106.06860)."""
+KEEPING = 4.0
+"""How much a copy counts where settings say nothing. Fujimoto and Gu 2021 (arXiv:2106.06860) have 0.4, which loses the
+copy where values are near 0, as in WaypointTracking."""
 
 SETTLED = 1e15
 """Number of observations that statistics are said to be of, so that those to come do not change them."""
