@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from dq_marine.agents.algorithm_settings import RolloutSettings
 from dq_marine.agents.preset_files import read_settings, validate_settings
 from dq_marine.agents.settings import ImitationSettings, TrainingSettings
@@ -44,10 +46,17 @@ def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
         content[table][name] = of_task[table][name]
     content["imitation"] = of_task["imitation"]
     if "buffer_size" in content["algorithm"]:
-        content["imitation"] = content["imitation"] or ImitationSettings().model_dump()
-        content["timesteps"] = STEPS_FROM_COPY
-        content["evaluation"]["every"] = STEPS_FROM_COPY // 10
-        content["algorithm"] |= {"learning_rate": RATE_FROM_COPY, "learning_starts": 0}
-    if isinstance(task.algorithm, RolloutSettings) and "log_std_init" in content["algorithm"]:
+        _begin_from_copy(content)
+    elif isinstance(task.algorithm, RolloutSettings):
         content["algorithm"]["log_std_init"] = task.algorithm.log_std_init
+    elif task.imitation is not None:
+        content["imitation"]["keeping"] = None
     return validate_settings(content, TrainingSettings, source=f"what was asked for, with {algorithm}")
+
+
+def _begin_from_copy(content: dict[str, Any]) -> None:
+    """Let settings of an algorithm that learns from a memory begin with a copy, and go on by few and small steps."""
+    content["imitation"] = content["imitation"] or ImitationSettings().model_dump()
+    content["timesteps"] = STEPS_FROM_COPY
+    content["evaluation"]["every"] = STEPS_FROM_COPY // 10
+    content["algorithm"] |= {"learning_rate": RATE_FROM_COPY, "learning_starts": 0}

@@ -44,6 +44,17 @@ def test_every_task_can_be_learned_by_every_algorithm(task: str, algorithm: str)
     assert made.algorithm.model_dump(exclude=left) == own.algorithm.model_dump(exclude=left)
 
 
+@pytest.mark.parametrize("there", ["ppo", "recurrent_ppo", "td3"])
+def test_there_and_back_is_the_same_task(there: str) -> None:
+    """From an algorithm with a memory, too, whose settings say how a copy is kept, which PPO's cannot."""
+    first = with_algorithm(read_settings("Docking", TrainingSettings), "sac")
+    kept = first.imitation.model_copy(update={"keeping": 2.0})
+    asked = first.model_copy(update={"imitation": kept})
+    back = with_algorithm(with_algorithm(asked, there), "sac")
+    expected = kept if there == "td3" else first.imitation
+    assert back == first.model_copy(update={"imitation": expected})
+
+
 def test_the_options_of_the_environment_come_last() -> None:
     made = requested_training(
         EnvironmentOptions(vehicle="rexrov"), preset="WaypointTracking", algorithm="sac"
