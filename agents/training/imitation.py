@@ -86,7 +86,7 @@ def imitate(
         lessons = lessons.and_also(further)
         say(f"{which}: what the {imitation.teacher} would have done is learned")
         difference = fit(policy, envs, lessons, imitation, learning)
-    if imitation.rounds:
+    if imitation.rounds or isinstance(model, OffPolicyAlgorithm):
         _settle_statistics(envs)
     if isinstance(model, OffPolicyAlgorithm):
         say("what that earns is learned")
@@ -120,7 +120,8 @@ def _settle_statistics(envs: VecNormalize) -> None:
     """Let observations be normalised as they are now from here on.
 
     Further rounds are flown where the pupil went astray, unlike what is to come: means and deviations would drift, and
-    what a policy does with the numbers that it has learned to read would drift with them.
+    what a policy does with the numbers that it has learned to read would drift with them, and so would a copy that is
+    kept.
     """
     if envs.norm_obs:
         for running in envs.obs_rms.values() if isinstance(envs.obs_rms, dict) else [envs.obs_rms]:

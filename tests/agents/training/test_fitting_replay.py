@@ -137,6 +137,17 @@ def test_a_copy_that_is_kept_stays_near_and_one_that_is_not_goes_astray(
     assert strayed[100.0] < 0.5 * strayed[0.0]
 
 
+def test_the_copy_goes_on_reading_numbers_as_it_learned_to(tmp_path: Path) -> None:
+    """Or what it does would drift with the statistics, and with it the policy that is to do the same."""
+    model = copied(tmp_path, learning(tmp_path, "td3", BRIEF.model_copy(update={"episodes": 1, "epochs": 1})))
+    envs = model.get_vec_normalize_env()
+    far = np.full((1, *model.observation_space.shape), 3.0)
+    before = envs.normalize_obs(far)
+    model.learn(64)
+    np.testing.assert_allclose(envs.normalize_obs(far), before, rtol=0.0, atol=1e-9)
+    environments_of(model).close()
+
+
 @pytest.mark.parametrize("algorithm", ["sac", "td3"])
 def test_a_copy_is_kept_after_the_model_was_loaded(algorithm: str, tmp_path: Path) -> None:
     """Both go on in the same episodes with the same draws, so that they become the same if both keep the copy."""
