@@ -16,11 +16,14 @@ OF_THE_TASK = (
 )
 """Settings within tables that belong to the task."""
 
-STEPS_FROM_COPY = 20_000
-"""That an algorithm which learns from a memory takes after it began as a copy; it is evaluated after each tenth."""
+COPY = ImitationSettings(rounds=1, forgetful=True)
+"""With which an algorithm that learns from a memory begins where the task's preset has none."""
 
 RATE_FROM_COPY = 2e-4
-"""At which it begins to learn then: a fifth of that from nothing, or the copy would be lost."""
+"""At which it begins to learn then: a fifth of that from nothing."""
+
+EVALUATED_FROM_COPY = 2_000
+"""Timesteps between its evaluations then: what it does may come and go, and the best is kept."""
 
 
 def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
@@ -29,8 +32,8 @@ def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
     The task's are the environment and how it differs while it is learned in, how far ahead returns look, which things
     in an observation are read alike, the logarithm before its normalisation, lessons, what the critic sees, and the
     copy that learning begins with. Steps, rates and networks are the algorithm's. One that learns from a memory begins
-    as a copy of the controller in any case, because the steps that it can take are too few to find out most tasks; it
-    then goes on by few and small ones.
+    as a copy of the controller in any case, because the steps that it can take are too few to find out most tasks; they
+    are small ones then, and often evaluated.
 
     Args:
         task: settings of the task, for whichever algorithm.
@@ -55,8 +58,7 @@ def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
 
 
 def _begin_from_copy(content: dict[str, Any]) -> None:
-    """Let settings of an algorithm that learns from a memory begin with a copy, and go on by few and small steps."""
-    content["imitation"] = content["imitation"] or ImitationSettings().model_dump()
-    content["timesteps"] = STEPS_FROM_COPY
-    content["evaluation"]["every"] = STEPS_FROM_COPY // 10
+    """Let settings of an algorithm that learns from a memory begin with a copy, and go on by small steps."""
+    content["imitation"] = content["imitation"] or COPY.model_dump()
+    content["evaluation"]["every"] = EVALUATED_FROM_COPY
     content["algorithm"] |= {"learning_rate": RATE_FROM_COPY, "learning_starts": 0}

@@ -1,6 +1,6 @@
 """Train tasks by several algorithms, and fly what each has learned through episodes that it has never seen.
 
-Run: python benchmarks/algorithms.py [--preset NAME ...] [--algorithm NAME ...] [--all-by NAME] [--timesteps N]
+Run: python benchmarks/algorithms.py [--preset NAME ...] [--algorithm NAME ...] [--also PRESET ...] [--timesteps N]
                                      [--episodes N] [--runs FOLDER]
 
 Each run is that of `dq-marine train --preset NAME --algorithm NAME --run FOLDER/NAME-NAME`; one that is in the folder
@@ -32,10 +32,10 @@ HEADER = ["preset", "algorithm", "timesteps", *trainings.TIMES, "best after", "s
 
 def row(preset: str, algorithm: str, wanted: argparse.Namespace) -> list[str]:
     """Return what an algorithm made of a task, as the cells of a row."""
-    folder = wanted.runs / f"{preset}-{algorithm}"
-    asked = ["--preset", preset, "--algorithm", algorithm]
+    asked, name = ["--preset", preset, "--algorithm", algorithm], f"{preset}-{algorithm}"
     if wanted.timesteps and algorithm in FROM_MEMORY:
-        asked += ["--timesteps", str(wanted.timesteps)]
+        asked, name = [*asked, "--timesteps", str(wanted.timesteps)], f"{name}-{wanted.timesteps}"
+    folder = wanted.runs / name
     run = trainings.trained(asked, folder)
     found = trainings.successes(folder, folder, wanted.episodes)
     best = RunFolder(folder).progress("best").timesteps
@@ -47,14 +47,15 @@ def main() -> None:
     """Train, fly, and write the table into the page."""
     parser = trainings.options(__doc__, episodes=100)
     parser.add_argument("--algorithm", action="append", choices=ALGORITHMS)
-    parser.add_argument("--all-by", choices=ALGORITHMS, help="besides, train every preset by this algorithm")
+    parser.add_argument(
+        "--also", action="append", default=[], choices=list(shipped_policies()), help="by SAC alone"
+    )
     parser.add_argument("--timesteps", type=int, help="of algorithms that learn from a memory")
     wanted = parser.parse_args()
     presets, algorithms = wanted.preset or DEFAULT_PRESETS, wanted.algorithm or ALGORITHMS
     pairs = [(preset, one) for preset in presets for one in algorithms]
-    if wanted.all_by:
-        pairs += [(preset, wanted.all_by) for preset in shipped_policies()]
-    rows = [row(preset, one, wanted) for preset, one in dict.fromkeys(pairs)]
+    pairs += [(preset, "sac") for preset in wanted.also]
+    rows = [row(preset, one, wanted) for preset, one in pairs]
     command = f"benchmarks/algorithms.py {' '.join(_said(wanted, presets, algorithms))}"
     content = f"{blocks.provenance(command)}\n{table(HEADER, rows)}\n"
     page = PAGE.read_text(encoding="utf-8")
@@ -64,7 +65,7 @@ def main() -> None:
 def _said(wanted: argparse.Namespace, presets: Sequence[str], algorithms: Sequence[str]) -> list[str]:
     """Return the options that bring the same about."""
     said = [f"--preset {one}" for one in presets] + [f"--algorithm {one}" for one in algorithms]
-    said += [f"--all-by {wanted.all_by}"] if wanted.all_by else []
+    said += [f"--also {one}" for one in wanted.also]
     said += [f"--timesteps {wanted.timesteps}"] if wanted.timesteps else []
     return [*said, f"--episodes {wanted.episodes}"]
 
