@@ -27,6 +27,9 @@ with extra_needed("training", "agents"):
 KEPT = "kept_copy"
 """Attribute of a model: its copy, and by how much it is kept; Stable-Baselines3 saves it with the model."""
 
+LEAST = 1e-6
+"""Magnitude of values that is divided by at the least: where nothing was ever earned, values may be zero."""
+
 
 def keep_copy(model: OffPolicyAlgorithm, keeping: float) -> None:
     """Let a model keep to what its actor does now, while it learns."""
@@ -49,7 +52,7 @@ def go_on_keeping(model: OffPolicyAlgorithm) -> None:
         own, _ = acted(policy.actor, observations)
         with torch.no_grad():
             copied, _ = acted(kept, observations)
-            magnitude = torch.cat(values(policy, observations, own), dim=1).abs().mean()
+            magnitude = torch.cat(values(policy, observations, own), dim=1).abs().mean().clamp(min=LEAST)
         for parameter in policy.actor.parameters():
             if parameter.grad is not None:
                 parameter.grad /= magnitude

@@ -186,3 +186,18 @@ def test_keeping_goes_with_a_memory(tmp_path: Path) -> None:
         InvalidInputError, match=r"imitation\.keeping = 1\.0 goes with algorithms that learn from a memory"
     ):
         requested_training(EnvironmentOptions(), preset=str(file))
+
+
+def test_values_of_nothing_leave_no_number_undefined(tmp_path: Path) -> None:
+    """Where critics say nothing but 0, the copy is all that counts."""
+    model = copied(tmp_path, learning(tmp_path, "td3", BRIEF.model_copy(update={"episodes": 2, "epochs": 1})))
+    actor, critic = model.policy.actor, model.policy.critic
+    with torch.no_grad():
+        for parameter in critic.parameters():
+            parameter.zero_()
+    actor.optimizer.zero_grad()
+    seen = model.replay_buffer.sample(16, env=model.get_vec_normalize_env()).observations
+    critic(seen, acted(actor, seen)[0])[0].mean().backward()
+    actor.optimizer.step()
+    assert np.isfinite(parameters_of(model)).all()
+    environments_of(model).close()
