@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from dq_marine.agents.algorithm_settings import RolloutSettings
+from dq_marine.agents.algorithm_settings import ReplaySettings, RolloutSettings
 from dq_marine.agents.preset_files import read_settings, validate_settings
 from dq_marine.agents.settings import ImitationSettings, TrainingSettings
 
@@ -42,13 +42,14 @@ def with_algorithm(task: TrainingSettings, algorithm: str) -> TrainingSettings:
     Raises:
         InvalidInputError: the algorithm cannot learn what the settings ask for.
     """
-    content, of_task = read_settings(algorithm, TrainingSettings).model_dump(), task.model_dump()
+    own = read_settings(algorithm, TrainingSettings)
+    content, of_task = own.model_dump(), task.model_dump()
     for name in ("environment", "while_learning", "curriculum", "privileged_critic"):
         content[name] = of_task[name]
     for table, name in OF_THE_TASK:
         content[table][name] = of_task[table][name]
     content["imitation"] = of_task["imitation"]
-    if "buffer_size" in content["algorithm"]:
+    if isinstance(own.algorithm, ReplaySettings):
         _begin_from_copy(content)
     elif isinstance(task.algorithm, RolloutSettings):
         content["algorithm"]["log_std_init"] = task.algorithm.log_std_init

@@ -3,9 +3,10 @@
 Run: python benchmarks/algorithms.py [--preset NAME ...] [--algorithm NAME ...] [--also PRESET ...] [--timesteps N]
                                      [--episodes N] [--runs FOLDER]
 
-Each run is that of `dq-marine train --preset NAME --algorithm NAME --run FOLDER/NAME-NAME`; one that is in the folder
-already, and has ended, is not trained again. Writes the table of docs/howto/algorithms.md, between its words. The best
-model is the one of the best evaluation while it was trained; where that came after 0 timesteps, it is the copy.
+Each run is that of `dq-marine train --preset NAME --algorithm NAME --run FOLDER/NAME-NAME`, with `--timesteps N` in
+FOLDER/NAME-NAME-N; one that is in the folder already, and has ended, is not trained again. Writes the table of
+docs/howto/algorithms.md, between its words. The best model is the one of the best evaluation while it was trained;
+where that came after 0 timesteps, it is the copy.
 """
 
 from __future__ import annotations
@@ -25,7 +26,6 @@ FROM_MEMORY = ("sac", "td3", "tqc", "crossq")
 ALGORITHMS = ("ppo", *FROM_MEMORY)
 DEFAULT_PRESETS = ("WaypointTracking", "DepthHeading", "PathFollowing", "PathFollowing_otter")
 """A vehicle with many thrusters, a torpedo twice, and a surface vessel."""
-
 
 HEADER = ["preset", "algorithm", "timesteps", *trainings.TIMES, "best after", "success"]
 

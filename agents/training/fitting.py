@@ -14,7 +14,7 @@ from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
     import torch
-    from stable_baselines3.common.policies import ActorCriticPolicy, BasePolicy
+    from stable_baselines3.common.policies import ActorCriticPolicy
     from stable_baselines3.common.vec_env import VecNormalize
 
 HELD_BACK = 0.1
@@ -37,7 +37,7 @@ def fit_steps(
         mean, values = _foretold(policy, rows_of(observations, batch))
         return terms_of_loss(mean, actions[batch], values, returns[batch])
 
-    held_back = learn_in_batches(policy, policy, len(actions), terms, imitation, random)
+    held_back = learn_in_batches(policy, len(actions), terms, imitation, random)
     looked_at = with_actions(held_back, lessons)
     with torch.no_grad():
         mean, _ = _foretold(policy, rows_of(observations, looked_at))
@@ -45,7 +45,6 @@ def fit_steps(
 
 
 def learn_in_batches(
-    policy: BasePolicy,
     network: torch.nn.Module,
     count: int,
     terms: Callable[[NDArray[np.int64]], list[torch.Tensor]],
@@ -55,8 +54,7 @@ def learn_in_batches(
     """Let a network make terms small, over rows in batches.
 
     Args:
-        policy: that the network is of.
-        network: whose parameters are fitted; it may be all of the policy.
+        network: whose parameters are fitted: a policy, or its actor or critics alone.
         count: of the rows.
         terms: of the loss for some rows; none where nothing of these is known.
         imitation: how often they are gone through, in batches of which size, and at which rate.
@@ -67,7 +65,7 @@ def learn_in_batches(
     """
     held_back, learned = np.split(random.permutation(count), [max(1, round(HELD_BACK * count))])
     optimiser = torch.optim.Adam(network.parameters(), lr=imitation.learning_rate)
-    policy.set_training_mode(True)
+    network.train()
     for rate, batch in _batches(learned, imitation, random):
         optimiser.param_groups[0]["lr"] = rate
         found = terms(batch)
@@ -76,7 +74,7 @@ def learn_in_batches(
         optimiser.zero_grad()
         sum(found[1:], found[0]).backward()  # type: ignore[no-untyped-call]
         optimiser.step()
-    policy.set_training_mode(False)
+    network.eval()
     return held_back
 
 

@@ -21,7 +21,6 @@ from dq_marine.util.extras import extra_needed
 with extra_needed("training", "agents"):
     import torch
     from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
-    from stable_baselines3.common.utils import polyak_update
     from stable_baselines3.common.vec_env import VecNormalize
     from stable_baselines3.sac.policies import LOG_STD_MIN
     from torch.nn.functional import mse_loss
@@ -53,7 +52,7 @@ def fit_actor(
         missed = mse_loss(done, actions[told])
         return [missed] if spread is None else [missed, mse_loss(spread, torch.full_like(spread, log_std))]
 
-    held_back = learn_in_batches(policy, policy.actor, len(actions), terms, imitation, random)
+    held_back = learn_in_batches(policy.actor, len(actions), terms, imitation, random)
     looked_at = with_actions(held_back, lessons)
     with torch.no_grad():
         done, _ = acted(policy.actor, rows_of(observations, looked_at))
@@ -79,11 +78,10 @@ def fit_critics(
         told = values(policy, rows_of(observations, known), flown[known])
         return [_missed(one, returns[known]) for one in told]
 
-    learn_in_batches(policy, policy.critic, len(returns), terms, imitation, random)
+    learn_in_batches(policy.critic, len(returns), terms, imitation, random)
     for name in TARGETS:
         if hasattr(policy, f"{name}_target"):
-            own, target = getattr(policy, name), getattr(policy, f"{name}_target")
-            polyak_update(own.parameters(), target.parameters(), 1.0)
+            getattr(policy, f"{name}_target").load_state_dict(getattr(policy, name).state_dict())
 
 
 def acted(actor: Any, observations: Any) -> tuple[torch.Tensor, torch.Tensor | None]:

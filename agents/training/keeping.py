@@ -16,7 +16,7 @@ import copy
 from typing import Any
 
 from dq_marine.agents.training.fitting_replay import acted, values
-from dq_marine.errors import InvalidInputError
+from dq_marine.agents.training.remembering import memory_of
 from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
@@ -48,7 +48,8 @@ def go_on_keeping(model: OffPolicyAlgorithm) -> None:
     policy: Any = model.policy
 
     def pull(optimiser: Any, arguments: Any, keywords: Any) -> None:
-        observations = _remembered(model)
+        batch = memory_of(model).sample(model.batch_size, env=model.get_vec_normalize_env())
+        observations = batch.observations
         own, _ = acted(policy.actor, observations)
         with torch.no_grad():
             copied, _ = acted(kept, observations)
@@ -59,12 +60,3 @@ def go_on_keeping(model: OffPolicyAlgorithm) -> None:
         (keeping * mse_loss(own, copied)).backward()
 
     policy.actor.optimizer.register_step_pre_hook(pull)
-
-
-def _remembered(model: OffPolicyAlgorithm) -> Any:
-    """Return a batch of observations out of a model's memory, normalised."""
-    if model.replay_buffer is None:
-        raise InvalidInputError(
-            f"{type(model).__name__} has no memory to learn from; load its replay buffer first"
-        )
-    return model.replay_buffer.sample(model.batch_size, env=model.get_vec_normalize_env()).observations

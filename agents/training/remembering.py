@@ -17,7 +17,21 @@ from dq_marine.errors import InvalidInputError
 from dq_marine.util.extras import extra_needed
 
 with extra_needed("training", "agents"):
+    from stable_baselines3.common.buffers import ReplayBuffer
     from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
+
+
+def memory_of(model: OffPolicyAlgorithm) -> ReplayBuffer:
+    """Return what a model remembers by.
+
+    Raises:
+        InvalidInputError: it was loaded without its replay buffer.
+    """
+    if model.replay_buffer is None:
+        raise InvalidInputError(
+            f"{type(model).__name__} has no memory to learn from; load its replay buffer first"
+        )
+    return model.replay_buffer
 
 
 def remember(model: OffPolicyAlgorithm, lessons: Lessons) -> None:
@@ -26,11 +40,7 @@ def remember(model: OffPolicyAlgorithm, lessons: Lessons) -> None:
     Memory takes as many periods at a time as there are environments; what is left over of the last is not remembered.
     """
     model.learning_starts = 0
-    buffer, envs, count = model.replay_buffer, model.n_envs, len(lessons.rewards)
-    if buffer is None:
-        raise InvalidInputError(
-            f"{type(model).__name__} remembers nothing yet; let it set up its model first"
-        )
+    buffer, envs, count = memory_of(model), model.n_envs, len(lessons.rewards)
     last = np.cumsum(lessons.lengths) - 1
     done, cut_off = np.zeros(count, bool), np.zeros(count, bool)
     done[last], cut_off[last] = True, ~lessons.terminated

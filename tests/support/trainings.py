@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from dq_marine.agents.preset_files import read_settings
 from dq_marine.agents.settings import TrainingSettings
@@ -88,3 +91,10 @@ def preset(tmp_path: Path, algorithm: str, timesteps: int = 256) -> Path:
 
 def tiny(tmp_path: Path, algorithm: str, timesteps: int = 256) -> TrainingSettings:
     return read_settings(preset(tmp_path, algorithm, timesteps), TrainingSettings)
+
+
+def parameters_of(model: Any) -> np.ndarray:
+    """Return all numbers that a model's policy has learned, one after the other."""
+    from torch.nn.utils import parameters_to_vector  # here: tests of settings need no torch
+
+    return parameters_to_vector(model.policy.parameters()).detach().numpy()

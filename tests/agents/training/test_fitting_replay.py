@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import torch
 from rich.console import Console
-from support.trainings import REMEMBERING, tiny
+from support.trainings import REMEMBERING, parameters_of, tiny
 
 from dq_marine.agents.settings import ImitationSettings, NetworkSettings, TrainingSettings
 from dq_marine.agents.training.fitting_replay import acted, values
@@ -29,12 +29,10 @@ ROUND_OFF = 2e-7
 BRIEF = ImitationSettings(episodes=40, epochs=60, batch_size=64, learning_rate=3e-3)
 
 
-def learning(
-    tmp_path: Path, algorithm: str, own: ImitationSettings = BRIEF, gamma: float = 0.7, timesteps: int = 64
-) -> TrainingSettings:
-    settings = tiny(tmp_path, algorithm, timesteps)
+def learning(tmp_path: Path, algorithm: str, own: ImitationSettings = BRIEF) -> TrainingSettings:
+    settings = tiny(tmp_path, algorithm, 64)
     wide = NetworkSettings(layers=(32,), activation="relu")
-    kind = settings.algorithm.model_copy(update={"gamma": gamma})
+    kind = settings.algorithm.model_copy(update={"gamma": 0.7})
     return settings.model_copy(update={"imitation": own, "network": wide, "algorithm": kind})
 
 
@@ -42,10 +40,6 @@ def copied(tmp_path: Path, settings: TrainingSettings) -> Any:
     model = make_model(settings, 3, tmp_path)
     imitate(model, settings, 3)
     return model
-
-
-def parameters_of(model: Any) -> np.ndarray:
-    return torch.cat([one.detach().flatten() for one in model.policy.parameters()]).numpy()
 
 
 def doing(model: Any, observations: Any) -> np.ndarray:

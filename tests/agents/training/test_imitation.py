@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import torch
 from rich.console import Console
-from support.trainings import tiny
+from support.trainings import parameters_of, tiny
 
 from dq_marine.agents.controllers.baselines import ZeroAgent, make_baseline
 from dq_marine.agents.environments import make_environment
@@ -30,10 +30,6 @@ BRIEF = ImitationSettings(episodes=40, epochs=60, batch_size=64, learning_rate=3
 def learning(tmp_path: Path, own: ImitationSettings = BRIEF) -> TrainingSettings:
     wide = NetworkSettings(layers=(32,), activation="tanh")
     return tiny(tmp_path, "ppo", 64).model_copy(update={"imitation": own, "network": wide})
-
-
-def parameters_of(model) -> np.ndarray:
-    return torch.cat([one.detach().flatten() for one in model.policy.parameters()]).numpy()
 
 
 def test_the_copy_does_what_the_teacher_does_and_values_what_that_earns(tmp_path: Path) -> None:

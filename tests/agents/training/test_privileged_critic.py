@@ -12,7 +12,7 @@ import torch
 from rich.console import Console
 from sb3_contrib.common.recurrent.type_aliases import RNNStates
 from support.sweeps import sweep
-from support.trainings import ALGORITHMS, tiny
+from support.trainings import ALGORITHMS, parameters_of, tiny
 
 from dq_marine.agents.deployment.export import export_policy
 from dq_marine.agents.deployment.onnx_policy import OnnxPolicy
@@ -47,10 +47,6 @@ def hiding(settings: TrainingSettings, **keywords: Any) -> TrainingSettings:
 @pytest.fixture
 def console() -> Console:
     return Console(file=io.StringIO(), width=200)
-
-
-def parameters_of(model: Any) -> np.ndarray:
-    return torch.cat([one.detach().flatten() for one in model.policy.parameters()]).numpy()
 
 
 def decided(model: Any, seen: dict[str, np.ndarray]) -> np.ndarray:
