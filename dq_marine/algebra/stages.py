@@ -65,6 +65,19 @@ def stage_product(matrix: tuple[Weights, ...], structure: Any) -> Any:
     return stages_together(tuple(stage_sum(row, structure) for row in matrix))
 
 
+def weighted_sum(weights: Weights, structures: tuple[Any, ...]) -> Any:
+    """Return sum_j w_j x_j of (nested tuples of) ordinary numbers: of rates that were found one after the other.
+
+    Args:
+        weights: one for each structure.
+        structures: one or more, all alike.
+    """
+    first = structures[0]
+    if isinstance(first, tuple):
+        return _alike(first, [weighted_sum(weights, parts) for parts in zip(*structures, strict=True)])
+    return paired_sum([weight * part for weight, part in zip(weights, structures, strict=True)])
+
+
 def stages_apart(weights: Weights, structure: Any) -> tuple[Any, ...]:
     """Return one structure of ordinary numbers for each stage."""
     return tuple(_at(structure, j) for j in range(len(weights)))

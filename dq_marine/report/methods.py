@@ -14,18 +14,20 @@ from dq_marine.physics.damping.build import DampingTerm
 from dq_marine.physics.damping.formulas.diagonal import DiagonalDamping, FullDamping
 from dq_marine.physics.term import ForceTerm
 from dq_marine.report.baselines.decoupled_lie import make_decoupled_lie
+from dq_marine.report.baselines.dop853 import make_dop853
 from dq_marine.report.baselines.drag import diagonal_drag, full_drag, linear_diagonal_drag, linear_full_drag
 from dq_marine.report.baselines.dynamics import StepSize
 from dq_marine.report.baselines.explicit_euler import make_explicit_euler
 from dq_marine.report.baselines.rk4_euler import make_rk4_euler
 from dq_marine.report.baselines.rk4_quaternion import make_rk4_quaternion
+from dq_marine.report.baselines.rk4_transported import make_rk4_transported
 from dq_marine.report.baselines.rkmk4 import make_rkmk4
 from dq_marine.report.baselines.semi_implicit_euler import make_semi_implicit_euler
 from dq_marine.report.physics import Physics
 from dq_marine.simulation.assembly import Assembly
 from dq_marine.simulation.one_body import OneBody
 
-Family: TypeAlias = Literal["DQVI", "Gauss", "Runge-Kutta", "Euler", "Lie group"]
+Family: TypeAlias = Literal["DQVI", "Gauss", "Explicit", "Runge-Kutta", "Euler", "Lie group"]
 
 
 @dataclass(frozen=True)
@@ -128,6 +130,10 @@ def any_damping(physics: Physics) -> str:
     return f"under {found} it is the method that `gauss8` stands for" if found else ""
 
 
+FAMILIES: dict[str, Family] = {"gauss": "Gauss", "runge_kutta": "Explicit"}
+"""Of schemes that are not variational."""
+
+
 def own(
     name: str,
     title: str,
@@ -139,8 +145,9 @@ def own(
 ) -> Method:
     """Return one of the product's own methods."""
     compose = partial(compose_own, scheme, order)
-    family: Family = "Gauss" if scheme == "gauss" else "DQVI"
-    return Method(name, title, family, order, evaluations, damped_evaluations, compose, refuse)
+    return Method(
+        name, title, FAMILIES.get(scheme, "DQVI"), order, evaluations, damped_evaluations, compose, refuse
+    )
 
 
 def baseline(
@@ -184,7 +191,10 @@ METHODS = {
         ),
         own("gauss8", "Gauss on the momentum, order 8", 8, BY_SWEEPS, BY_SWEEPS, scheme="gauss"),
         own("galerkin8", "Galerkin DQVI, order 8", 8, BY_SWEEPS, BY_SWEEPS, scheme="galerkin"),
+        own("rk8", "Runge-Kutta on the momentum, order 8", 8, 12, 12, scheme="runge_kutta"),
         baseline("rk4_quaternion", "RK4, quaternion", "Runge-Kutta", 4, 4, make_rk4_quaternion),
+        baseline("rk4_transported", "RK4, momentum transported", "Runge-Kutta", 4, 4, make_rk4_transported),
+        baseline("dop853", "DOP853, quaternion", "Runge-Kutta", 8, 12, make_dop853),
         baseline("rk4_euler", "RK4, Euler angles", "Runge-Kutta", 4, 4, make_rk4_euler),
         baseline("semi_implicit_euler", "Semi-implicit Euler", "Euler", 1, 1, make_semi_implicit_euler),
         baseline("explicit_euler", "Explicit Euler", "Euler", 1, 1, make_explicit_euler),
@@ -199,6 +209,9 @@ SWEPT = tuple(
     name for name, method in METHODS.items() if method.evaluations in (BY_SWEEPS, BY_SWEEPS_OF_THREE)
 )
 """Methods that solve a step by sweeps."""
+
+WITH_STAGES = (*SWEPT, "rk8")
+"""The product's methods that leave steps which are too long for them to one of second order."""
 
 UNSWEPT = {name: method for name, method in METHODS.items() if name not in SWEPT}
 """All other methods, by name: those of a quick report, for methods by sweeps take longest to compile."""

@@ -6,8 +6,14 @@ from dq_marine.report.cases import CASES
 from dq_marine.report.libraries import LIBRARIES
 from dq_marine.report.methods import METHODS
 
-OWN = tuple(name for name, method in METHODS.items() if method.family in ("DQVI", "Gauss"))
+OWN = tuple(name for name, method in METHODS.items() if method.family in ("DQVI", "Gauss", "Explicit"))
 """This package's own methods."""
+
+KEEPING = tuple(name for name in OWN if METHODS[name].family != "Explicit")
+"""Those that keep momentum and energy over any number of steps."""
+
+RIVALS = tuple(name for name in METHODS if name not in OWN)
+"""Baselines, which are compiled in the same way."""
 
 
 def title_of(method: str) -> str:

@@ -30,16 +30,23 @@ from dq_marine.physics.damping.build import DampingTerm
 from dq_marine.physics.matrices import inertia_term
 from dq_marine.physics.radiation.build import MemoryTerm
 from dq_marine.physics.term import ForceTerm, WaterTerm, nested_parameters
-from dq_marine.simulation.collocated import COLLOCATED, Collocated
+from dq_marine.simulation.stage_schemes import STAGE_SCHEMES, StageScheme
 
 DRIFTS = {"midpoint": (midpoint_drift, midpoint_fallback), "paper": (paper_drift, paper_fallback)}
 """Schemes with a drift, by name: the drift, and its fallback."""
 
-SCHEMES = tuple(sorted([*DRIFTS, *COLLOCATED]))
+SCHEMES = tuple(sorted([*DRIFTS, *STAGE_SCHEMES]))
 """Names of all schemes."""
 
 ORDERS = (2, *STAGES)
 """Orders that a method may have."""
+
+
+ONLY_WITH_STAGES = {
+    "gauss": "orders 6 and 8 alone; give one of them",
+    "runge_kutta": "order 8 alone; give order=8",
+}
+"""Schemes that have no order but those with stages of their own, and which these are."""
 
 
 def check_method(scheme: str, order: int) -> None:
@@ -49,10 +56,9 @@ def check_method(scheme: str, order: int) -> None:
         InvalidInputError: with the reason.
     """
     one_of("scheme", scheme, SCHEMES)
-    if scheme == "gauss" and order not in COLLOCATED[scheme].orders:
+    if scheme in ONLY_WITH_STAGES and order not in STAGE_SCHEMES[scheme].orders:
         raise InvalidInputError(
-            f"order = {shown(order)}, but scheme = 'gauss' has orders 6 and 8 alone; give one of them, or another "
-            "scheme"
+            f"order = {shown(order)}, but scheme = {scheme!r} has {ONLY_WITH_STAGES[scheme]}, or give another scheme"
         )
     one_of("order", order, ORDERS)
 
@@ -114,17 +120,17 @@ class Assembly:
                 "order = 6, but with damping scheme = 'gauss' is Radau's collocation, of order 7; give order=8, which "
                 "stands for it"
             )
-        if self.memory is not None and self._collocated:
+        if self.memory is not None and self._stage_scheme:
             raise InvalidInputError(
                 f'scheme = {self.scheme!r} of order {self.order} knows no radiation memory; give scheme="midpoint" of '
                 'order 2 or 4, or radiation="constant"'
             )
-        if self.contact.name and (self.order != 2 or self._collocated):
+        if self.contact.name and (self.order != 2 or self._stage_scheme):
             raise InvalidInputError(
                 f"scheme = {self.scheme!r} of order {self.order} knows no contact, which is of low order; "
                 'give scheme="midpoint", order=2, or leave the solids out'
             )
-        if self.order > 4 and self.dissipation and not self._collocated:
+        if self.order > 4 and self.dissipation and not self._stage_scheme:
             raise InvalidInputError(
                 f"order = {self.order}, but there is {self.dissipation}: orders above 4 take negative stages, which "
                 "cannot undo it; give order 2 or 4, or leave it out"
@@ -156,9 +162,9 @@ class Assembly:
     @property
     def composition(self) -> Composition:
         """The functions of the step."""
-        if self._collocated:
+        if self._stage_scheme:
             strang = replace(self, scheme="midpoint", order=2).composition
-            return self._collocated.compose(strang, self.order, self.damping, self._potentials)
+            return self._stage_scheme.compose(strang, self.order, self.damping, self._potentials)
         drift, fallback = DRIFTS["midpoint" if self.scheme == "galerkin" else self.scheme]
         return Composition(
             method=self._method.make,
@@ -188,8 +194,8 @@ class Assembly:
         )
 
     def _timing(self, step: float) -> Any:
-        if self._collocated:
-            return self._collocated.timing(self.damping, step)
+        if self._stage_scheme:
+            return self._stage_scheme.timing(self.damping, step)
         return self._method.timing(step)
 
     @property
@@ -219,15 +225,15 @@ class Assembly:
         return found if len(found) == len(self._present(0.0)) else ()
 
     @property
-    def _collocated(self) -> Collocated | None:
-        """The scheme, if it solves steps of this order by collocation: Galerkin's of order 2 is the midpoint scheme."""
-        scheme = COLLOCATED.get(self.scheme)
+    def _stage_scheme(self) -> StageScheme | None:
+        """The scheme, if it takes steps of this order with stages: Galerkin's of order 2 is the midpoint scheme."""
+        scheme = STAGE_SCHEMES.get(self.scheme)
         return scheme if scheme and self.order in scheme.orders else None
 
     @property
     def _drag(self) -> tuple[ForceTerm, ...]:
         """Damping as a force, where the scheme takes it as one."""
-        return self.damping.drag if self._collocated else ()
+        return self.damping.drag if self._stage_scheme else ()
 
     @property
     def _method(self) -> Method:

@@ -74,19 +74,20 @@ class Scene:
             current: velocity of the water in NED, shape (3,) [m/s]; or a
                 `dq_marine.CurrentProfile` or `dq_marine.GaussMarkovCurrent`, or a dictionary of its attributes.
             scheme: "midpoint"; "paper" for that of Xu & Halse; "galerkin" for the variational integrators whose orders
-                above 2 need no substeps; or "gauss" for collocation on the momentum: without damping exact in momentum
-                and energy but not variational, with damping L-stable.
+                above 2 need no substeps; "gauss" for collocation on the momentum: without damping exact in momentum
+                and energy but not variational, with damping L-stable; or "runge_kutta" for an explicit method, the
+                cheapest for a batch that is to be exact and is not stiff.
             step: step size h [s]; a negative one runs time backwards, in a scene without dissipation.
             order: order of the method: 2 or 4; or 6 or 8 in a scene without damping and velocity forces, or with
-                "galerkin" in any; 6 or 8 of "gauss", where 8 is of order 7 with damping, and 6, without
-                damping only, the cheaper one for a batch of free bodies.
+                "galerkin" in any; 6 or 8 of "gauss", where 8 is of order 7 with damping, and 6 is without
+                damping only; 8 of "runge_kutta".
             kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
             hydrostatics: "linear": for a vessel that floats, its waterplane's restoring force for small motions, and
                 for any other vehicle, weight and buoyancy under water; or "hull": buoyancy of the boxes of its hull at
                 any depth and attitude, so that it may capsize, dive or leave the water.
             weather: seas and winds, see `dq_marine.physics.weather`.
             forces: your own forces, see `dq_marine.ForceTerm`.
-            solids: what the hull cannot pass, see `dq_marine.Solid`; needs order 2 and no collocation.
+            solids: what the hull cannot pass, see `dq_marine.Solid`; needs order 2 and a scheme without stages.
             actuation: "wrench", a force and moment on the body; or "thrusters", the vehicle's thrusters, azimuths and
                 fins, with their limits and lags: see `OneBody.actuate`.
             gravity: g [m/s^2], which weight, buoyancy and the lengths of waves follow; None for the vehicle's own, 9.81

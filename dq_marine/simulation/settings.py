@@ -91,10 +91,11 @@ class Settings:
         radiation: how the waves that a hull makes act on it: "constant", by constant added mass and damping; or
             "memory", by those of all frequencies that its file has, for small speeds. See `dq_marine.Scene`.
         scheme: "midpoint"; "paper" for that of Xu and Halse; "galerkin" for the variational integrators whose orders
-            above 2 need no substeps; or "gauss" for collocation on the momentum: without damping exact in momentum
-            and energy but not variational, with damping L-stable.
+            above 2 need no substeps; "gauss" for collocation on the momentum: without damping exact in momentum
+            and energy but not variational, with damping L-stable; or "runge_kutta" for an explicit method, the
+            cheapest for a batch that is to be exact and is not stiff.
         order: of the method: 2 or 4, and 6 or 8 where nothing takes energy, or with "galerkin"; 6 or 8 of "gauss",
-            where 8 is of order 7 with damping, and 6 the cheaper for a batch where nothing damps.
+            where 8 is of order 7 with damping; 8 of "runge_kutta".
         kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
         control_period: time between actions [s].
         substeps: integrator steps in a control period.

@@ -89,7 +89,7 @@ def test_methods_with_stages_have_of_the_water_what_the_scene_has():
     sheared = {"forces_in_shear", "step_from_start", "shear_force", "carry_from_depth", "slip"}
     accelerating = {"forces_in_accelerating_water", "carry_unsteadily"}
     profile = CurrentProfile([0.0, 9.0], [[0.5, 0.0], [0.0, 0.0]])
-    for scheme, order in (("gauss", 8), ("galerkin", 4)):
+    for scheme, order in (("gauss", 8), ("galerkin", 4), ("runge_kutta", 8)):
         used = {}
         for name, current in (("still", (0, 0, 0)), ("uniform", (1, 0, 0)), ("profile", profile)):
             advance = make_advance(Scene(scheme=scheme, order=order, current=current).composition)

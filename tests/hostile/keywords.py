@@ -52,7 +52,7 @@ CURRENTS = (
 SCENE: dict[str, Callable[[Rng], Any]] = {
     "vehicle": one_of("bluerov2_heavy", "remus100", "otter"),
     "current": one_of(*CURRENTS),
-    "scheme": one_of("midpoint", "paper", "galerkin"),
+    "scheme": one_of("midpoint", "paper", "galerkin", "runge_kutta"),
     "step": number(1e-3, 0.1),
     "order": one_of(2, 4, 6, 8),
     "kick": one_of("l_stable", "implicit_node"),

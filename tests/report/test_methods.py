@@ -19,8 +19,14 @@ LANES = 9
 """More than a block of lanes holds."""
 
 COUNTS = {1: (100, 200, 400), 2: (20, 40, 80), 4: (8, 12, 18), 6: (5, 7, 9), 8: (3, 4, 5)}
-FINER = {("rk4_euler", "kirchhoff_bluerov2"): 8, ("gauss8", "kirchhoff_bluerov2"): 2}
-"""How much finer where a pitch comes near 90 degrees, and where the sweeps still end too early to show the order."""
+FINER = {
+    ("rk4_euler", "kirchhoff_bluerov2"): 8,
+    ("gauss8", "kirchhoff_bluerov2"): 2,
+    **{(name, "kirchhoff_bluerov2"): 4 for name in ("rk8", "dop853")},
+    **{(name, "coupled_rexrov"): 2 for name in ("rk8", "dop853")},
+}
+"""How much finer where a pitch comes near 90 degrees, where the sweeps still end too early to show the order, and where
+an explicit method needs shorter steps to show it."""
 
 
 def end_in_plain_python(method, case, count):
@@ -68,6 +74,7 @@ def test_names_titles_and_families():
     assert {method.family for method in METHODS.values()} == {
         "DQVI",
         "Gauss",
+        "Explicit",
         "Runge-Kutta",
         "Euler",
         "Lie group",

@@ -8,6 +8,7 @@ import pytest
 from matplotlib import rc_context
 from report import synthetic
 
+from dq_marine.report.names import OWN
 from dq_marine.report.showing.curves import best_own, curves_of
 from dq_marine.report.showing.work_precision_view import draw_case
 from dq_marine.util.plot_style import SETTINGS
@@ -78,11 +79,7 @@ def test_the_best_own_method_is_the_cheapest_that_gets_there() -> None:
     for target in (1e-2, 1e-6):
         best = best_own(curves, "attitude", target)
         assert best is not None
-        costs = {
-            name: curve.cost_at("attitude", target)
-            for name, curve in curves.items()
-            if name.startswith("dqvi")
-        }
+        costs = {name: curve.cost_at("attitude", target) for name, curve in curves.items() if name in OWN}
         assert best[1] == min(cost for cost in costs.values() if cost is not None) == costs[best[0]]
     assert best_own({}, "attitude", 1e-2) is None
 

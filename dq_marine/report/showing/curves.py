@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from dq_marine.report.names import OWN, in_order
@@ -93,10 +94,17 @@ def best_own(
     curves: dict[str, Curve], quantity: str, target: float, cost: str = TIME
 ) -> tuple[str, float] | None:
     """Return which of this package's methods reaches an error at the least cost, and that; None if none does."""
+    return cheapest(OWN, curves, quantity, target, cost)
+
+
+def cheapest(
+    methods: Sequence[str], curves: dict[str, Curve], quantity: str, target: float, cost: str = TIME
+) -> tuple[str, float] | None:
+    """Return which of some methods reaches an error at the least cost, and that; None if none does."""
     found = [
         (value, name)
         for name, curve in curves.items()
-        if name in OWN and (value := curve.cost_at(quantity, target, cost)) is not None
+        if name in methods and (value := curve.cost_at(quantity, target, cost)) is not None
     ]
     return (min(found)[1], min(found)[0]) if found else None
 

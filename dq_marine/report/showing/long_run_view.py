@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from dq_marine.report.names import OWN, in_order, title_of
+from dq_marine.report.names import KEEPING, in_order, title_of
 from dq_marine.report.plan import Row, Rows, distinct, find
 from dq_marine.report.presentation import Check, Drawing, Table, factor, listed, number
 from dq_marine.report.showing.axes import add_legend, drawable, make_logarithmic
@@ -171,7 +171,7 @@ def checks(rows: Rows) -> list[Check]:
     """Return what a variational integrator must keep: momentum to round-off, energy in bounds and without drift."""
     found = []
     for run, own in runs(rows):
-        if run["method"] not in OWN:
+        if run["method"] not in KEEPING:
             continue
         name = f"{title_of(run['method'])}, {run['title']}, h = {run['step']:g} s"
         momentum = largest(own, "linear_momentum_error")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from dq_marine.report.cases import CASES
-from dq_marine.report.methods import SWEPT
-from dq_marine.report.names import case_title, in_order, order_of, title_of
+from dq_marine.report.methods import WITH_STAGES
+from dq_marine.report.names import RIVALS, case_title, in_order, order_of, title_of
 from dq_marine.report.plan import Rows, distinct
 from dq_marine.report.presentation import (
     Check,
@@ -28,6 +28,7 @@ from dq_marine.report.showing.curves import (
     TIME,
     Curve,
     best_own,
+    cheapest,
     curves_of,
 )
 from dq_marine.report.showing.orders import order_checks, order_table
@@ -46,6 +47,24 @@ SCALES = {TIME: 1e-9, EVALUATIONS: 1.0}
 NOT_REACHED = "-"
 USUAL_STEP = 0.02
 """What simulators of marine vehicles take [s]."""
+
+
+class Opponent(NamedTuple):
+    """What the fastest method of this package is held against: methods, by how they are called."""
+
+    title: str
+    short: str
+    methods: tuple[str, ...]
+
+    def cost_at(self, curves: dict[str, Curve], quantity: str, target: float) -> float | None:
+        """Return the time of the fastest of them for an error, None if none reaches it."""
+        found = cheapest(self.methods, curves, quantity, target)
+        return None if found is None else found[1]
+
+
+USUAL = Opponent(title_of(BASELINE), "RK4", (BASELINE,))
+STRONGEST = Opponent("the fastest baseline", "a baseline", RIVALS)
+"""DOP853 in most cases; each case and error has its own."""
 
 
 def drawings(rows: Rows) -> list[Drawing]:
@@ -105,35 +124,37 @@ def draw_curves(axes: Any, curves: dict[str, Curve], quantity: str, cost: str) -
 def tables(rows: Rows) -> list[Table]:
     """Return who wins where, the observed orders, and the times of every method on every case."""
     all_curves = {case: curves_of(rows, case) for case in distinct(rows, "case")}
-    found = [ratio_table(all_curves, quantity) for quantity in ("attitude", "position")]
+    found = [ratio_table(all_curves, quantity, USUAL) for quantity in ("attitude", "position")]
+    found += [ratio_table(all_curves, "attitude", STRONGEST)]
     found += [order_table(all_curves), same_step_table(all_curves)]
     for case, curves in all_curves.items():
         found += [time_table(case, curves, quantity) for quantity in ("attitude", "position")]
     return found
 
 
-def ratio_table(all_curves: dict[str, dict[str, Curve]], quantity: str) -> Table:
-    """Return the time of the best own method over that of RK4, by case and error."""
+def ratio_table(all_curves: dict[str, dict[str, Curve]], quantity: str, opponent: Opponent) -> Table:
+    """Return the time of the best own method over that of an opponent, by case and error."""
     lines = []
     for case, curves in all_curves.items():
-        lines.append([case_title(case), *(ratio_cell(curves, quantity, target) for target in TARGETS)])
+        lines.append(
+            [case_title(case), *(ratio_cell(curves, quantity, target, opponent) for target in TARGETS)]
+        )
     return Table(
-        f"Time of the fastest method of this package over that of {title_of(BASELINE)}, by {QUANTITIES[quantity]}",
+        f"Time of the fastest method of this package over that of {opponent.title}, by {QUANTITIES[quantity]}",
         ["case", *(f"{power(target)}" for target in TARGETS)],
         lines,
         "Below 1, this package is faster. In brackets the order of the fastest. Read off between measured points.",
     )
 
 
-def ratio_cell(curves: dict[str, Curve], quantity: str, target: float) -> str:
+def ratio_cell(curves: dict[str, Curve], quantity: str, target: float, opponent: Opponent) -> str:
     """Return one ratio, with the order of the own method that it is for."""
-    own = best_own(curves, quantity, target)
-    baseline = curves[BASELINE].cost_at(quantity, target) if BASELINE in curves else None
+    own, other = best_own(curves, quantity, target), opponent.cost_at(curves, quantity, target)
     if own is None:
-        return "this package: not reached" if baseline is not None else NOT_REACHED
-    if baseline is None:
-        return f"RK4: not reached ({short(own[0])})"
-    return f"{factor(own[1] / baseline)} ({short(own[0])})"
+        return "this package: not reached" if other is not None else NOT_REACHED
+    if other is None:
+        return f"{opponent.short}: not reached ({short(own[0])})"
+    return f"{factor(own[1] / other)} ({short(own[0])})"
 
 
 def short(name: str) -> str:
@@ -189,48 +210,60 @@ def time_cell(nanoseconds: float | None) -> str:
 
 
 def findings(rows: Rows) -> list[str]:
-    """Return where this package wins and loses against RK4, in numbers."""
+    """Return where this package wins and loses against RK4, and against the fastest baseline, in numbers."""
     all_curves = {case: curves_of(rows, case) for case in distinct(rows, "case")}
-    found = [
-        (case, target, ratio(curves, target)) for case, curves in all_curves.items() for target in TARGETS
-    ]
-    known = [(case, target, value) for case, target, value in found if value is not None]
-    wins = [(case, target) for case, target, value in known if value < 1.0]
-    if not known:
-        return []
-    gist = (
-        f"Of {len(known)} pairs of case and attitude error that this package or {title_of(BASELINE)} reaches, the "
-        f"fastest method of this package needs less time in {len(wins)}, and more in {len(known) - len(wins)}."
-    )
-    sentences = [
-        gist,
-        *(sentence_of(kind, known) for kind in dict.fromkeys(kind_of(case) for case, _, _ in known)),
-    ]
+    found = [sentence for opponent in (USUAL, STRONGEST) for sentence in comparison(all_curves, opponent)]
+    wins = [(case, target) for case, target, value in ratios(all_curves, USUAL) if value < 1.0]
     if wins:
         names = [
             f"{case_title(case)} ({', '.join(f'{power(t)}' for c, t in wins if c == case)})"
             for case, _ in wins
         ]
-        sentences.append(
-            f"This package is ahead of {title_of(BASELINE)} on {listed(list(dict.fromkeys(names)))}."
-        )
-    return sentences
+        found.append(f"This package is ahead of {USUAL.title} on {listed(list(dict.fromkeys(names)))}.")
+    return found
 
 
-def ratio(curves: dict[str, Curve], target: float) -> float | None:
-    """Return the time of the fastest method of this package over that of RK4 for an attitude error.
+Ratio = tuple[str, float, float]
+"""Case, error, and time over the opponent's."""
 
-    Zero where RK4 does not reach it, infinite where the package does not, None where neither does.
+
+def ratios(all_curves: dict[str, dict[str, Curve]], opponent: Opponent) -> list[Ratio]:
+    """Return the ratios of all cases and errors that this package or the opponent reaches."""
+    found = [
+        (case, target, ratio(curves, target, opponent))
+        for case, curves in all_curves.items()
+        for target in TARGETS
+    ]
+    return [(case, target, value) for case, target, value in found if value is not None]
+
+
+def comparison(all_curves: dict[str, dict[str, Curve]], opponent: Opponent) -> list[str]:
+    """Return how this package and an opponent compare: in how many pairs, and by what factor."""
+    known = ratios(all_curves, opponent)
+    if not known:
+        return []
+    wins = sum(value < 1.0 for _, _, value in known)
+    gist = (
+        f"Of {len(known)} pairs of case and attitude error that this package or {opponent.title} reaches, the fastest "
+        f"method of this package needs less time in {wins}, and more in {len(known) - wins}."
+    )
+    kinds = dict.fromkeys(kind_of(case) for case, _, _ in known)
+    return [gist, *(sentence_of(kind, known, opponent) for kind in kinds)]
+
+
+def ratio(curves: dict[str, Curve], target: float, opponent: Opponent) -> float | None:
+    """Return the time of the fastest method of this package over that of an opponent for an attitude error.
+
+    Zero where the opponent does not reach it, infinite where the package does not, None where neither does.
     """
-    own = best_own(curves, "attitude", target)
-    baseline = curves[BASELINE].cost_at("attitude", target) if BASELINE in curves else None
+    own, other = best_own(curves, "attitude", target), opponent.cost_at(curves, "attitude", target)
     if own is None:
-        return None if baseline is None else math.inf
-    return 0.0 if baseline is None else own[1] / baseline
+        return None if other is None else math.inf
+    return 0.0 if other is None else own[1] / other
 
 
-def sentence_of(kind: str, known: list[tuple[str, float, float]]) -> str:
-    """Return how this package and RK4 compare on one kind of motion."""
+def sentence_of(kind: str, known: list[Ratio], opponent: Opponent) -> str:
+    """Return how this package and an opponent compare on one kind of motion."""
     parts = []
     for target in TARGETS:
         values = [value for case, error, value in known if kind_of(case) == kind and error == target]
@@ -241,10 +274,10 @@ def sentence_of(kind: str, known: list[tuple[str, float, float]]) -> str:
             else f"no common case at {power(target)} rad"
         )
         alone, lacking = values.count(0.0), values.count(math.inf)
-        text += f", where RK4 does not get in {alone} of {len(values)}" if alone else ""
+        text += f", where {opponent.short} does not get in {alone} of {len(values)}" if alone else ""
         text += f", where this package does not get in {lacking} of {len(values)}" if lacking else ""
         parts.append(text)
-    return f"Time of the fastest method of this package over that of {title_of(BASELINE)}, {kind}: {'; '.join(parts)}."
+    return f"Time of the fastest method of this package over that of {opponent.title}, {kind}: {'; '.join(parts)}."
 
 
 def geometric_mean(values: list[float]) -> float:
@@ -255,8 +288,8 @@ def geometric_mean(values: list[float]) -> float:
 def checks(rows: Rows) -> list[Check]:
     """Return the observed orders, held against those that the methods are said to have.
 
-    Not of methods by sweeps: their longest steps are left to a fallback of second order, whose errors are no power of
-    the step. Tests of the integrator hold their orders.
+    Not of methods whose longest steps are left to a fallback of second order: errors are no power of the step there.
+    Tests of the integrator hold their orders.
     """
-    rows = [row for row in rows if row.get("method") not in SWEPT]
+    rows = [row for row in rows if row.get("method") not in WITH_STAGES]
     return order_checks({case: curves_of(rows, case) for case in distinct(rows, "case")})

@@ -76,6 +76,9 @@ KEYWORDS = {
     "profile": {"current": PROFILE},
     "Gauss-Markov": {"current": GAUSS_MARKOV},
     "Gauss-Markov, gauss": {"current": GAUSS_MARKOV, "scheme": "gauss", "order": 8, "substeps": 1},
+    "Gauss-Markov, runge_kutta": {
+        "current": GAUSS_MARKOV, "scheme": "runge_kutta", "order": 8, "substeps": 1,
+    },
     "Gauss-Markov, galerkin": {"current": GAUSS_MARKOV, "scheme": "galerkin", "order": 4, "substeps": 1},
     "all but actuators and wind": driven_by_wrenches() | {"max_episode_steps": 20},
 }  # fmt: skip

@@ -149,7 +149,13 @@ def test_a_shape_whose_distance_cannot_be_had_is_refused(shape, message):
 
 
 @pytest.mark.parametrize(
-    "keywords", [{"order": 4}, {"scheme": "gauss", "order": 8}, {"scheme": "galerkin", "order": 4}]
+    "keywords",
+    [
+        {"order": 4},
+        {"scheme": "gauss", "order": 8},
+        {"scheme": "galerkin", "order": 4},
+        {"scheme": "runge_kutta", "order": 8},
+    ],
 )
 def test_methods_of_high_order_say_that_they_know_no_contact(keywords):
     with pytest.raises(InvalidInputError, match=r'knows no contact.*give scheme="midpoint", order=2'):

@@ -81,12 +81,14 @@ WITH_STAGES = {
     ("galerkin", 6): [11, 14, 18],
     ("galerkin", 8): [12, 16, 20, 24],
     ("gauss", 8): [12, 16, 20, 24],
+    ("runge_kutta", 8): [12, 16, 20, 24],
 }
 """Steps of the motion, by scheme and order."""
 IN_A_SLOPE = {
     **WITH_STAGES,
     ("galerkin", 8): [16, 20, 24, 28],
     ("gauss", 8): [16, 20, 24, 28],
+    ("runge_kutta", 8): [16, 20, 24, 28],
     ("midpoint", 4): [20, 40, 80],
     ("midpoint", 6): [20, 40, 80],
 }
@@ -115,7 +117,7 @@ def test_schemes_with_stages_cross_a_corner_better_than_order_two_and_with_its_s
     velocity = np.concatenate([Rotation.from_quat(np.roll(q, -1)).inv().apply((0.3, -0.1, 0.5)), spin])
     counts, still = np.array([6, 12, 24]), np.zeros(3)
     case = {"current": profile_water(corner), "kind": PlainBody}
-    methods = (("midpoint", 2), ("galerkin", 4), ("gauss", 8))
+    methods = (("midpoint", 2), ("galerkin", 4), ("gauss", 8), ("runge_kutta", 8))
     worst = {scheme: np.zeros(len(counts)) for scheme, _ in methods}
     for depth in (4.66, 4.69, 4.73, 4.75):
         begin = (np.array([0.0, 0.0, depth]), q, velocity)
@@ -129,7 +131,7 @@ def test_schemes_with_stages_cross_a_corner_better_than_order_two_and_with_its_s
                 body.reset(*begin)
                 body.step(steps=int(count))
                 worst[scheme][k] = max(worst[scheme][k], *errors(body, reference))
-    for scheme in ("galerkin", "gauss"):
+    for scheme in ("galerkin", "gauss", "runge_kutta"):
         assert (worst[scheme] < 0.02 * worst["midpoint"]).all(), worst
         assert observed_order(DURATION / counts, worst[scheme]) > 1.7, worst
 
@@ -182,7 +184,7 @@ def test_the_drifting_frame_is_the_earth_fixed_form():
     assert max(errors(body, reference)) < 1e-10
 
 
-@pytest.mark.parametrize(("scheme", "order"), [("galerkin", 4), ("gauss", 8)])
+@pytest.mark.parametrize(("scheme", "order"), [("galerkin", 4), ("gauss", 8), ("runge_kutta", 8)])
 def test_with_stages_a_profile_of_one_velocity_is_a_uniform_current(scheme, order):
     velocity = (0.6, -0.3)
     constant = profile_water(CurrentProfile([0.0, 3.0, 6.0, 10.0], [velocity] * 4))
@@ -198,7 +200,7 @@ def test_with_stages_a_profile_of_one_velocity_is_a_uniform_current(scheme, orde
     assert np.abs(states[0] - states[1]).max() < 1e-12 * (1.0 + np.abs(states[1]).max())
 
 
-@pytest.mark.parametrize(("scheme", "order"), [("galerkin", 4), ("gauss", 8)])
+@pytest.mark.parametrize(("scheme", "order"), [("galerkin", 4), ("gauss", 8), ("runge_kutta", 8)])
 def test_with_stages_a_free_sphere_keeps_its_velocity_over_ground_in_shear(scheme, order):
     """Whatever corners it meets: only the water around it changes, not what it does."""
     sphere, q = np.diag([3.0] * 3 + [1.0] * 3), random_quaternion(np.random.default_rng(2))
@@ -280,7 +282,7 @@ def test_time_runs_backwards_in_a_profile():
     assert np.abs(backwards.get_state() - begin).max() < 1e-11
 
 
-METHODS = [("midpoint", 2), ("gauss", 8), ("galerkin", 4)]
+METHODS = [("midpoint", 2), ("gauss", 8), ("galerkin", 4), ("runge_kutta", 8)]
 
 
 @pytest.mark.sweep

@@ -231,6 +231,6 @@ def test_what_the_memory_stands_for_is_taken_out_of_the_damping():
 def test_time_does_not_run_backwards_and_collocation_is_refused():
     with pytest.raises(Exception, match="radiation memory"):
         Scene("supply_vessel", step=-0.1, radiation="memory")
-    for scheme, order in (("gauss", 8), ("galerkin", 4)):
+    for scheme, order in (("gauss", 8), ("galerkin", 4), ("runge_kutta", 8)):
         with pytest.raises(Exception, match='knows no radiation memory; give scheme="midpoint"'):
             Scene("supply_vessel", step=0.1, scheme=scheme, order=order, radiation="memory")

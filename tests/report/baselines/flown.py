@@ -8,9 +8,10 @@ from dq_marine.algebra.spatial import from_fossen
 from dq_marine.backend.packing import pack
 from dq_marine.integrator.step import ACCEPTED, make_advance
 from dq_marine.report.methods import METHODS
+from dq_marine.report.names import OWN
 from dq_marine.report.physics import Physics
 
-BASELINES = tuple(name for name, method in METHODS.items() if method.family not in ("DQVI", "Gauss"))
+BASELINES = tuple(name for name in METHODS if name not in OWN)
 
 
 def make_physics(

@@ -1,6 +1,6 @@
-"""The schemes that solve a whole step by collocation: what a scene's composition and timing become with them.
+"""The schemes with stages: what a scene's composition and timing become with them.
 
-Both take a scene's forces at the nodes of the step, damping among them, and leave the steps that they do not solve to
+All take a scene's forces at the stages of the step, damping among them, and leave the steps that they do not solve to
 Strang's method with the midpoint drift.
 """
 
@@ -17,6 +17,7 @@ from dq_marine.integrator.forces import Potential, VelocityForce
 from dq_marine.integrator.galerkin import PIECES, PiecesTiming, make_galerkin, make_in_pieces
 from dq_marine.integrator.gauss import make_gauss_method
 from dq_marine.integrator.radau import DampedTiming, make_radau_method
+from dq_marine.integrator.runge_kutta import make_runge_kutta
 from dq_marine.integrator.step import Composition, make_advance
 from dq_marine.physics.damping.build import DampingTerm
 
@@ -24,11 +25,11 @@ VelocityForces: TypeAlias = tuple[VelocityForce, ...]
 Potentials: TypeAlias = tuple[Potential, ...]
 
 
-class Collocated(NamedTuple):
+class StageScheme(NamedTuple):
     """A scheme.
 
     Attributes:
-        orders: that it solves by collocation.
+        orders: that it takes with stages of its own.
         compose: (composition of Strang's method, order, damping, potentials of all forces) -> composition.
         timing: (damping, step size [s]) -> what the method needs to know of the step size.
     """
@@ -108,8 +109,27 @@ def galerkin_timing(damping: DampingTerm, step: float) -> FallbackTiming:
     return FallbackTiming(step, PiecesTiming(step, damping.timing(step / PIECES)))
 
 
-COLLOCATED = {
-    "galerkin": Collocated((4, 6, 8), compose_galerkin, galerkin_timing),
-    "gauss": Collocated((6, 8), compose_gauss, gauss_timing),
+@functools.cache
+def runge_kutta_composition(strang: Composition, drag: VelocityForces) -> Composition:
+    """Return the composition of the explicit Runge-Kutta method."""
+    return replace(with_drag(strang, drag), method=make_runge_kutta, fallback=make_advance(strang))
+
+
+def compose_runge_kutta(
+    strang: Composition, order: int, damping: DampingTerm, potentials: Potentials
+) -> Composition:
+    """Return the same; it has one order, and needs no potentials."""
+    return runge_kutta_composition(strang, drag_of(damping))
+
+
+def runge_kutta_timing(damping: DampingTerm, step: float) -> FallbackTiming:
+    """Return the timing of the explicit Runge-Kutta method."""
+    return FallbackTiming(step, damping.timing(step))
+
+
+STAGE_SCHEMES = {
+    "galerkin": StageScheme((4, 6, 8), compose_galerkin, galerkin_timing),
+    "gauss": StageScheme((6, 8), compose_gauss, gauss_timing),
+    "runge_kutta": StageScheme((8,), compose_runge_kutta, runge_kutta_timing),
 }
 """By name."""

@@ -1,0 +1,210 @@
+"""Dormand and Prince's explicit Runge-Kutta method of order 8: its coefficients, and its stages one after the other.
+
+With y' = f(t, y) over a step that lasts 1,
+
+    y_i = y + sum_j a_ij k_j,   k_i = f(c_i, y_i),   y' = y + sum_i b_i k_i                           (E1)
+
+with twelve stages, of which eight have a weight. sum_i e_i k_i tells the error of a method of order 5 that the same
+stages hold. The coefficients are those of the code DOP853 (Hairer, Norsett, Wanner 1993, Solving Ordinary Differential
+Equations I, sec. II.5 and II.10), each row without its zeros: from the sixth stage on, stages 2 and 3 have none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from dq_marine.algebra.stages import Weights, weighted_sum
+
+ORDER, STAGES = 8, 12
+
+NODES: Weights = (
+    0.0,
+    0.0526001519587677318785587544488,
+    0.0789002279381515978178381316732,
+    0.118350341907227396726757197510,
+    0.281649658092772603273242802490,
+    0.333333333333333333333333333333,
+    0.25,
+    0.307692307692307692307692307692,
+    0.651282051282051282051282051282,
+    0.6,
+    0.857142857142857142857142857142,
+    1.0,
+)
+"""c_i."""
+
+A2: Weights = (0.0526001519587677318785587544488,)
+A3: Weights = (0.0197250569845378994544595329183, 0.0591751709536136983633785987549)
+A4: Weights = (0.0295875854768068491816892993775, 0.0887627564304205475450678981324)
+A5: Weights = (
+    0.241365134159266685502369798665,
+    -0.884549479328286085344864962717,
+    0.924834003261792003115737966543,
+)
+A6: Weights = (
+    0.037037037037037037037037037037,
+    0.170828608729473871279604482173,
+    0.125467687566822425016691814123,
+)
+A7: Weights = (0.037109375, 0.170252211019544039314978060272, 0.0602165389804559606850219397283, -0.017578125)
+A8: Weights = (
+    0.0370920001185047927108779319836,
+    0.170383925712239993810214054705,
+    0.107262030446373284651809199168,
+    -0.0153194377486244017527936158236,
+    0.00827378916381402288758473766002,
+)
+A9: Weights = (
+    0.624110958716075717114429577812,
+    -3.36089262944694129406857109825,
+    -0.868219346841726006818189891453,
+    27.5920996994467083049415600797,
+    20.1540675504778934086186788979,
+    -43.4898841810699588477366255144,
+)
+A10: Weights = (
+    0.477662536438264365890433908527,
+    -2.48811461997166764192642586468,
+    -0.590290826836842996371446475743,
+    21.2300514481811942347288949897,
+    15.2792336328824235832596922938,
+    -33.2882109689848629194453265587,
+    -0.0203312017085086261358222928593,
+)
+A11: Weights = (
+    -0.93714243008598732571704021658,
+    5.18637242884406370830023853209,
+    1.09143734899672957818500254654,
+    -8.14978701074692612513997267357,
+    -18.5200656599969598641566180701,
+    22.7394870993505042818970056734,
+    2.49360555267965238987089396762,
+    -3.0467644718982195003823669022,
+)
+A12: Weights = (
+    2.27331014751653820792359768449,
+    -10.5344954667372501984066689879,
+    -2.00087205822486249909675718444,
+    -17.9589318631187989172765950534,
+    27.9488845294199600508499808837,
+    -2.85899827713502369474065508674,
+    -8.87285693353062954433549289258,
+    12.3605671757943030647266201528,
+    0.643392746015763530355970484046,
+)
+
+WEIGHTS: Weights = (
+    0.0542937341165687622380535766363,
+    4.45031289275240888144113950566,
+    1.89151789931450038304281599044,
+    -5.8012039600105847814672114227,
+    0.31116436695781989440891606237,
+    -0.152160949662516078556178806805,
+    0.201365400804030348374776537501,
+    0.0447106157277725905176885569043,
+)
+"""b_i of stages 1 and 6 to 12."""
+
+ERROR: Weights = (
+    0.01312004499419488073250102996,
+    -1.225156446376204440720569753,
+    -0.4957589496572501915214079952,
+    1.664377182454986536961530415,
+    -0.350328848749973681688648729,
+    0.3341791187130174790297318841,
+    0.08192320648511571246570742613,
+    -0.02235530786388629525884427845,
+)
+"""e_i of the same stages."""
+
+
+class ExplicitStage(NamedTuple):
+    """Where a stage is, and what was found there, with its `rate`."""
+
+    place: Any
+    found: Any
+
+
+Weighted = tuple[
+    ExplicitStage,
+    ExplicitStage,
+    ExplicitStage,
+    ExplicitStage,
+    ExplicitStage,
+    ExplicitStage,
+    ExplicitStage,
+    ExplicitStage,
+]
+"""The stages that have a weight: 1 and 6 to 12."""
+
+
+def make_stages(
+    find: Callable[[Any, float, Any], Any], follow: Callable[[Any, Any], Any]
+) -> Callable[[Any, Any], Weighted]:
+    """Return (context, start) -> the stages (E1) that have a weight.
+
+    Args:
+        find: (context, share of the step that is over, place) -> what is found there: a named tuple with `rate`.
+        follow: (place, change) -> the place after it.
+    """
+    _, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11, c12 = NODES
+
+    def stages(context: Any, y1: Any) -> Weighted:
+        found1 = find(context, 0.0, y1)
+        k1 = found1.rate
+        y2 = follow(y1, weighted_sum(A2, (k1,)))
+        k2 = find(context, c2, y2).rate
+        y3 = follow(y1, weighted_sum(A3, (k1, k2)))
+        k3 = find(context, c3, y3).rate
+        y4 = follow(y1, weighted_sum(A4, (k1, k3)))
+        k4 = find(context, c4, y4).rate
+        y5 = follow(y1, weighted_sum(A5, (k1, k3, k4)))
+        k5 = find(context, c5, y5).rate
+        y6 = follow(y1, weighted_sum(A6, (k1, k4, k5)))
+        found6 = find(context, c6, y6)
+        k6 = found6.rate
+        y7 = follow(y1, weighted_sum(A7, (k1, k4, k5, k6)))
+        found7 = find(context, c7, y7)
+        k7 = found7.rate
+        y8 = follow(y1, weighted_sum(A8, (k1, k4, k5, k6, k7)))
+        found8 = find(context, c8, y8)
+        k8 = found8.rate
+        y9 = follow(y1, weighted_sum(A9, (k1, k4, k5, k6, k7, k8)))
+        found9 = find(context, c9, y9)
+        k9 = found9.rate
+        y10 = follow(y1, weighted_sum(A10, (k1, k4, k5, k6, k7, k8, k9)))
+        found10 = find(context, c10, y10)
+        k10 = found10.rate
+        y11 = follow(y1, weighted_sum(A11, (k1, k4, k5, k6, k7, k8, k9, k10)))
+        found11 = find(context, c11, y11)
+        k11 = found11.rate
+        y12 = follow(y1, weighted_sum(A12, (k1, k4, k5, k6, k7, k8, k9, k10, k11)))
+        found12 = find(context, c12, y12)
+        return (
+            ExplicitStage(y1, found1),
+            ExplicitStage(y6, found6),
+            ExplicitStage(y7, found7),
+            ExplicitStage(y8, found8),
+            ExplicitStage(y9, found9),
+            ExplicitStage(y10, found10),
+            ExplicitStage(y11, found11),
+            ExplicitStage(y12, found12),
+        )
+
+    return stages
+
+
+def rates(stages: Weighted) -> tuple[Any, ...]:
+    """Return those of all stages."""
+    s1, s6, s7, s8, s9, s10, s11, s12 = stages
+    return (
+        s1.found.rate,
+        s6.found.rate,
+        s7.found.rate,
+        s8.found.rate,
+        s9.found.rate,
+        s10.found.rate,
+        s11.found.rate,
+        s12.found.rate,
+    )

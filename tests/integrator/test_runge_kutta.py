@@ -1,0 +1,192 @@
+"""`scheme="runge_kutta"`: its coefficients, order, what free motion keeps, and steps that are too long for it."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import DOP853
+from support.bodies import PlainBody, make_body, random_inertia, random_quaternion
+from support.fossen import errors, solve
+from support.order import observed_order
+from support.sweeps import sweep
+
+from dq_marine.errors import InvalidInputError
+from dq_marine.integrator import dormand_prince
+from dq_marine.integrator.dormand_prince import ERROR, NODES, ORDER, STAGES, WEIGHTS
+from dq_marine.simulation.scene import Scene
+
+GRAVITY = {"excess_weight": 2.0, "arm": (0.2, -0.1, 1.0), "current": (0.2, -0.1, 0.1)}
+WITH_A_WEIGHT = [0, *range(5, STAGES)]
+"""Indices of the stages."""
+
+
+def rk_body(mass_matrix, step, kind=None, **case):
+    arguments = {} if kind is None else {"kind": kind}
+    return make_body(mass_matrix, step, scheme="runge_kutta", order=8, **arguments, **case)
+
+
+# The method's coefficients
+
+
+def matrix():
+    """a_ij, with its zeros."""
+    a = np.zeros((STAGES, STAGES))
+    for i in range(1, STAGES):
+        row = getattr(dormand_prince, f"A{i + 1}")
+        columns = {1: [0], 2: [0, 1], 3: [0, 2], 4: [0, 2, 3]}.get(i, [0, *range(3, i)])
+        a[i, columns] = row
+    return a
+
+
+def weights():
+    """b_i, with its zeros."""
+    b = np.zeros(STAGES)
+    b[WITH_A_WEIGHT] = WEIGHTS
+    return b
+
+
+def test_coefficients_are_those_of_dop853():
+    error = np.zeros(STAGES + 1)
+    error[WITH_A_WEIGHT] = ERROR
+    assert np.array_equal(matrix(), DOP853.A[:STAGES, :STAGES])
+    assert np.array_equal(NODES, DOP853.C[:STAGES])
+    assert np.array_equal(weights(), DOP853.B)
+    assert np.array_equal(error, DOP853.E5)
+
+
+def test_coefficients_meet_conditions_of_order():
+    """Those of quadrature, and of a linear equation, whose solution the method has to the eighth power of the step."""
+    a, b, c = matrix(), weights(), np.array(NODES)
+    assert a.sum(axis=1) == pytest.approx(c, abs=2e-14)
+    power = np.ones(STAGES)
+    for degree in range(ORDER):
+        assert b @ c**degree == pytest.approx(1.0 / (degree + 1), abs=1e-14)
+        assert b @ power == pytest.approx(1.0 / np.prod(np.arange(1.0, degree + 2)), abs=1e-14)
+        power = a @ power
+    assert np.array(ERROR).sum() == pytest.approx(0.0, abs=1e-14)
+
+
+# Order
+
+
+@pytest.mark.parametrize("name", ["free", "restoring, current and wrench"])
+def test_order_eight(name):
+    case = {} if name == "free" else GRAVITY
+    rng = np.random.default_rng(3)
+    m = random_inertia(rng, 5.0)
+    q, velocity = random_quaternion(rng), 0.7 * rng.normal(size=6)
+    wrench = 0.5 * rng.normal(size=6) if case else np.zeros(6)
+    reference = solve(m, np.zeros(3), q, velocity, 2.0, wrench=wrench, rtol=3e-14, **case)
+    counts, measured = np.array([6, 8, 10, 13]), []
+    for count in counts:
+        body = rk_body(m, 2.0 / count, PlainBody, **case)
+        body.reset(np.zeros(3), q, velocity)
+        body.step(wrench, int(count))
+        assert body.fallback_steps == 0
+        measured.append(errors(body, reference))
+    for kind, series in zip(("position", "attitude", "velocity"), np.array(measured).T, strict=True):
+        observed = observed_order(2.0 / counts, series)
+        assert observed == pytest.approx(8.0, abs=0.8), f"{kind}: {series}"
+
+
+# What is kept
+
+
+@settings(max_examples=20)
+@given(seed=st.integers(0, 2**32 - 1), condition=st.floats(0.0, 4.0))
+def test_free_bodies_of_any_inertia_keep_momentum(seed, condition):
+    """In runs of sixteen steps, in shorter ones, and where steps are left to the fallback."""
+    rng = np.random.default_rng(seed)
+    body = rk_body(random_inertia(rng, 10.0**condition), 0.05)
+    body.reset(rng.normal(size=3), random_quaternion(rng), rng.normal(size=6))
+    momentum = body.spatial_momentum
+    for steps in (1, 7, 16, 100):
+        body.step(steps=steps)
+    reach = 1.0 + np.linalg.norm(body.position_ned)
+    assert np.abs(body.spatial_momentum - momentum).max() < 1e-12 * reach * np.linalg.norm(momentum)
+
+
+def test_energy_of_free_motion_is_of_the_methods_order():
+    rng = np.random.default_rng(6)
+    m, velocity, changes = random_inertia(rng), rng.normal(size=6), []
+    for step in (0.1, 0.05):
+        body = rk_body(m, step)
+        body.reset(velocity_body=velocity)
+        energy = body.kinetic_energy
+        body.step(steps=round(20.0 / step))
+        assert body.fallback_steps == 0
+        changes.append(abs(body.kinetic_energy / energy - 1.0))
+    assert changes[0] < 1e-4
+    assert changes[1] < changes[0] / 2.0**6
+
+
+@pytest.mark.sweep
+def test_a_heavy_top_keeps_momentum_and_energy_to_the_methods_error():
+    arm = np.array([0.3, 0.1, -2.0])
+    body = rk_body(np.diag([10.0, 10.0, 10.0, 0.4, 0.4, 0.2]), 0.02, arm=arm)
+    body.reset(
+        (0.0, 0.0, 0.0), (0.9659258262890683, 0.25881904510252074, 0.0, 0.0), (0.2, 0.1, 0, 0, 0, 12.0)
+    )
+    momentum = body.spatial_momentum
+    body.step(steps=2000)
+    assert np.abs(body.spatial_momentum - momentum)[[0, 1, 5]].max() < 1e-7 * np.linalg.norm(momentum)
+    assert body.fallback_steps == 0
+
+
+# The same everywhere
+
+
+@pytest.mark.parametrize(
+    "case", sweep([{}, GRAVITY], plain=[{}]), ids=lambda case: "forces" if case else "free"
+)
+def test_plain_python_and_compiled_agree_bit_for_bit(case):
+    rng = np.random.default_rng(0)
+    m, q, velocity = random_inertia(rng), random_quaternion(rng), 0.5 * rng.normal(size=6)
+    for wrench in (np.zeros(6), rng.normal(size=6)):
+        plain, compiled = rk_body(m, 0.1, PlainBody, **case), rk_body(m, 0.1, **case)
+        for body in (plain, compiled):
+            body.reset(np.zeros(3), q, velocity)
+            body.step(wrench, 6)
+        assert np.array_equal(plain.get_state(), compiled.get_state())
+
+
+# Steps that are too long
+
+
+def test_free_steps_that_lose_energy_are_taken_by_the_fallback_and_counted():
+    """A radian and more a step is too much for an explicit method."""
+    body = rk_body(np.diag([1.0, 1.0, 1.0, 1.0, 2.0, 3.0]), 1.0)
+    body.reset(velocity_body=(0.3, 0.2, 0.1, 4.0, 6.0, 5.0))
+    momentum, energy = body.spatial_momentum, body.kinetic_energy
+    body.step(steps=6)
+    assert body.fallback_steps == 6
+    assert np.abs(body.spatial_momentum - momentum).max() < 1e-11 * np.linalg.norm(momentum)
+    assert body.kinetic_energy == pytest.approx(energy, rel=0.05)
+
+
+@pytest.mark.parametrize("rate", sweep(10.0 ** np.arange(1, 9), plain=(1e2, 1e6)))
+def test_damping_of_any_stiffness_blows_nothing_up(rate):
+    """Beyond h lambda of some 6 steps are Strang's, whose kick is L-stable: the terminal velocity is exact."""
+    m = np.diag([10.0, 12.0, 15.0, 1.0, 2.0, 2.5])
+    body = rk_body(m, 0.1, PlainBody, linear=rate * m)
+    body.reset(velocity_body=(1.0, -0.5, 0.3, 0.2, 0.1, -0.3))
+    thrust = np.array([50.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    body.step(thrust, 30)
+    assert body.velocity_body[0] == pytest.approx(5.0 / rate, rel=1e-5)
+    assert np.abs(body.velocity_body[1:]).max() < 1e-5
+    assert (body.fallback_steps > 0) == (rate > 50.0)
+
+
+def test_a_body_at_rest_stays():
+    body = rk_body(np.eye(6), 0.1)
+    body.step(steps=20)
+    assert np.array_equal(body.position_ned, np.zeros(3))
+    assert np.array_equal(body.quaternion_body_to_ned, (1.0, 0.0, 0.0, 0.0))
+    assert body.fallback_steps == 0
+
+
+def test_other_orders_are_refused():
+    with pytest.raises(
+        InvalidInputError, match=r"order = 2, but scheme = 'runge_kutta' has order 8 alone; give"
+    ):
+        Scene(scheme="runge_kutta", order=2)
