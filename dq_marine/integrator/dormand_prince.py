@@ -1,22 +1,16 @@
-"""Dormand and Prince's explicit Runge-Kutta method of order 8: its coefficients, and its stages one after the other.
+"""Dormand and Prince's explicit Runge-Kutta method of order 8 (E1), with twelve stages, of which eight have a weight.
 
-With y' = f(t, y) over a step that lasts 1,
-
-    y_i = y + sum_j a_ij k_j,   k_i = f(c_i, y_i),   y' = y + sum_i b_i k_i                           (E1)
-
-with twelve stages, of which eight have a weight. sum_i e_i k_i tells the error of a method of order 5 that the same
-stages hold. The coefficients are those of the code DOP853 (Hairer, Norsett, Wanner 1993, Solving Ordinary Differential
-Equations I, sec. II.5 and II.10), each row without its zeros: from the sixth stage on, stages 2 and 3 have none.
+sum_i e_i k_i is the difference from a method of order 5 that the same stages hold. The coefficients are those of the
+code DOP853 (Hairer, Norsett, Wanner 1993, Solving Ordinary Differential Equations I, sec. II.5 and II.10), each row
+without its zeros: from the sixth stage on, stages 2 and 3 have none.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from dq_marine.algebra.stages import Weights, weighted_sum
-
-ORDER, STAGES = 8, 12
+from dq_marine.integrator.explicit import Explicit, Extent, Find, Follow, IsStable, Taken, TakeStep
 
 NODES: Weights = (
     0.0,
@@ -119,92 +113,50 @@ ERROR: Weights = (
 """e_i of the same stages."""
 
 
-class ExplicitStage(NamedTuple):
-    """Where a stage is, and what was found there, with its `rate`."""
+class Telling(NamedTuple):
+    """The difference from the method of order 5, and the rates at the start of the step and after a third of it."""
 
-    place: Any
-    found: Any
-
-
-Weighted = tuple[
-    ExplicitStage,
-    ExplicitStage,
-    ExplicitStage,
-    ExplicitStage,
-    ExplicitStage,
-    ExplicitStage,
-    ExplicitStage,
-    ExplicitStage,
-]
-"""The stages that have a weight: 1 and 6 to 12."""
+    difference: Any
+    first: Any
+    sixth: Any
 
 
-def make_stages(
-    find: Callable[[Any, float, Any], Any], follow: Callable[[Any, Any], Any]
-) -> Callable[[Any, Any], Weighted]:
-    """Return (context, start) -> the stages (E1) that have a weight.
+LARGEST_DIFFERENCE = 0.3
+"""Of rates. For y' = z y that is exceeded beyond z = -7 and z = 6i, and the method is stable up to -6.4 and 6i."""
 
-    Args:
-        find: (context, share of the step that is over, place) -> what is found there: a named tuple with `rate`.
-        follow: (place, change) -> the place after it.
-    """
+
+def make_step(find: Find, follow: Follow) -> TakeStep:
+    """Return (E1): a step."""
     _, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11, c12 = NODES
 
-    def stages(context: Any, y1: Any) -> Weighted:
-        found1 = find(context, 0.0, y1)
-        k1 = found1.rate
-        y2 = follow(y1, weighted_sum(A2, (k1,)))
-        k2 = find(context, c2, y2).rate
-        y3 = follow(y1, weighted_sum(A3, (k1, k2)))
-        k3 = find(context, c3, y3).rate
-        y4 = follow(y1, weighted_sum(A4, (k1, k3)))
-        k4 = find(context, c4, y4).rate
-        y5 = follow(y1, weighted_sum(A5, (k1, k3, k4)))
-        k5 = find(context, c5, y5).rate
-        y6 = follow(y1, weighted_sum(A6, (k1, k4, k5)))
-        found6 = find(context, c6, y6)
-        k6 = found6.rate
-        y7 = follow(y1, weighted_sum(A7, (k1, k4, k5, k6)))
-        found7 = find(context, c7, y7)
-        k7 = found7.rate
-        y8 = follow(y1, weighted_sum(A8, (k1, k4, k5, k6, k7)))
-        found8 = find(context, c8, y8)
-        k8 = found8.rate
-        y9 = follow(y1, weighted_sum(A9, (k1, k4, k5, k6, k7, k8)))
-        found9 = find(context, c9, y9)
-        k9 = found9.rate
-        y10 = follow(y1, weighted_sum(A10, (k1, k4, k5, k6, k7, k8, k9)))
-        found10 = find(context, c10, y10)
-        k10 = found10.rate
-        y11 = follow(y1, weighted_sum(A11, (k1, k4, k5, k6, k7, k8, k9, k10)))
-        found11 = find(context, c11, y11)
-        k11 = found11.rate
-        y12 = follow(y1, weighted_sum(A12, (k1, k4, k5, k6, k7, k8, k9, k10, k11)))
-        found12 = find(context, c12, y12)
-        return (
-            ExplicitStage(y1, found1),
-            ExplicitStage(y6, found6),
-            ExplicitStage(y7, found7),
-            ExplicitStage(y8, found8),
-            ExplicitStage(y9, found9),
-            ExplicitStage(y10, found10),
-            ExplicitStage(y11, found11),
-            ExplicitStage(y12, found12),
-        )
+    def step(context: Any, start: Any) -> Taken:
+        k1 = find(context, 0.0, start)
+        k2 = find(context, c2, follow(start, weighted_sum(A2, (k1,))))
+        k3 = find(context, c3, follow(start, weighted_sum(A3, (k1, k2))))
+        k4 = find(context, c4, follow(start, weighted_sum(A4, (k1, k3))))
+        k5 = find(context, c5, follow(start, weighted_sum(A5, (k1, k3, k4))))
+        k6 = find(context, c6, follow(start, weighted_sum(A6, (k1, k4, k5))))
+        k7 = find(context, c7, follow(start, weighted_sum(A7, (k1, k4, k5, k6))))
+        k8 = find(context, c8, follow(start, weighted_sum(A8, (k1, k4, k5, k6, k7))))
+        k9 = find(context, c9, follow(start, weighted_sum(A9, (k1, k4, k5, k6, k7, k8))))
+        k10 = find(context, c10, follow(start, weighted_sum(A10, (k1, k4, k5, k6, k7, k8, k9))))
+        k11 = find(context, c11, follow(start, weighted_sum(A11, (k1, k4, k5, k6, k7, k8, k9, k10))))
+        k12 = find(context, c12, follow(start, weighted_sum(A12, (k1, k4, k5, k6, k7, k8, k9, k10, k11))))
+        with_weights = (k1, k6, k7, k8, k9, k10, k11, k12)
+        telling = Telling(weighted_sum(ERROR, with_weights), k1, k6)
+        return Taken(weighted_sum(WEIGHTS, with_weights), telling)
 
-    return stages
+    return step
 
 
-def rates(stages: Weighted) -> tuple[Any, ...]:
-    """Return those of all stages."""
-    s1, s6, s7, s8, s9, s10, s11, s12 = stages
-    return (
-        s1.found.rate,
-        s6.found.rate,
-        s7.found.rate,
-        s8.found.rate,
-        s9.found.rate,
-        s10.found.rate,
-        s11.found.rate,
-        s12.found.rate,
-    )
+def make_is_stable(extent: Extent) -> IsStable:
+    """Return whether a step was short enough."""
+
+    def is_stable(context: Any, rates: Telling, blur: float) -> bool:
+        changing = extent(context, rates.first) + extent(context, rates.sixth)
+        return extent(context, rates.difference) <= LARGEST_DIFFERENCE**2 * changing + blur
+
+    return is_stable
+
+
+DORMAND_PRINCE = Explicit(8, make_step, make_is_stable)

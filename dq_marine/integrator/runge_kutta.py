@@ -1,18 +1,36 @@
-"""An explicit Runge-Kutta method of order 8 for whole scenes: no equation is solved, and bodies in lanes wait for none.
+"""Explicit Runge-Kutta methods for whole scenes: no equation is solved, and bodies in lanes wait for none.
 
-Momentum, attitude and position are integrated by Dormand and Prince's stages (`dormand_prince`), in `runs` of steps. In
-free motion the pose is then made consistent with the momentum, which is exact to round-off (`runge_kutta_free`).
-The method is neither variational nor stable for stiff damping; steps that it cannot take are Strang's, and counted.
+Momentum, attitude and position are integrated by the stages of a method of order 4 (`classical_runge_kutta`) or 8
+(`dormand_prince`), in `runs` of steps. In free motion the pose is then made consistent with the momentum, which is
+exact to round-off (`runge_kutta_free`). The methods are neither variational nor stable for stiff damping; steps that
+they cannot take are Strang's, and counted.
 """
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
+
+from dq_marine.integrator.classical_runge_kutta import CLASSICAL
+from dq_marine.integrator.dormand_prince import DORMAND_PRINCE
 from dq_marine.integrator.runge_kutta_forced import make_forced_steps
-from dq_marine.integrator.runge_kutta_free import free_steps
-from dq_marine.integrator.runs import make_method_in_runs
+from dq_marine.integrator.runge_kutta_free import make_free_steps
+from dq_marine.integrator.runs import make_free_attempt, make_free_unless_pushed, make_method_in_runs
 from dq_marine.integrator.step import Advance, Composition
 
+METHODS = {method.order: method for method in (CLASSICAL, DORMAND_PRINCE)}
+"""By order."""
 
-def make_runge_kutta(composition: Composition) -> Advance:
-    """Return the advance of a scene."""
-    return make_method_in_runs(composition, free_steps, make_forced_steps(composition))
+
+@functools.cache
+def make_runge_kutta(order: int) -> Callable[[Composition], Advance]:
+    """Return the method of an order: (composition) -> advance."""
+    method = METHODS[order]
+
+    def runge_kutta(composition: Composition) -> Advance:
+        free, forced = make_free_steps(method), make_forced_steps(composition, method)
+        if composition.forceless:  # steps with forces do not keep what free motion keeps
+            forced = make_free_unless_pushed(make_free_attempt(composition, free), forced)
+        return make_method_in_runs(composition, free, forced)
+
+    return runge_kutta

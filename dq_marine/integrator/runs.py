@@ -10,7 +10,7 @@ from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.selection import negation, select, some, spread
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.body import BodyState
-from dq_marine.integrator.drift_report import DriftReport, SolverReport, worst
+from dq_marine.integrator.drift_report import DriftReport, SolverReport, report_of_either, worst
 from dq_marine.integrator.fallback import Stepped, Take, make_advance_with_fallback, make_take, solved, usable
 from dq_marine.integrator.gauss_drift import FreeSteps
 from dq_marine.integrator.gauss_forced import Steps, one_of
@@ -60,6 +60,29 @@ def make_free_attempt(composition: Composition, free: FreeSteps) -> Steps:
         return pose, momentum, report
 
     return attempt
+
+
+def make_free_unless_pushed(free_attempt: Steps, forced: Steps) -> Steps:
+    """Return the steps of free motion, and for bodies that a wrench pushes, those of the other method."""
+
+    def steps_of_either(
+        parameters: StepParameters,
+        time: float,
+        h: float,
+        steps: int,
+        pose: DualQuaternion,
+        momentum: Spatial,
+        wrench: Spatial,
+    ) -> tuple[DualQuaternion, Spatial, DriftReport]:
+        after, handed_on, report = free_attempt(parameters, time, h, steps, pose, momentum, wrench)
+        pushed = negation(is_zero(wrench))
+        if some(pushed):
+            moved, carried, other = forced(parameters, time, h, steps, pose, momentum, wrench)
+            after, handed_on = select(pushed, moved, after), select(pushed, carried, handed_on)
+            report = report_of_either(pushed, other, report)
+        return after, handed_on, report
+
+    return steps_of_either
 
 
 def make_in_runs(attempt: Steps, take: Take, shortest: int) -> Advance:

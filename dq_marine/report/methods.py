@@ -191,6 +191,7 @@ METHODS = {
         ),
         own("gauss8", "Gauss on the momentum, order 8", 8, BY_SWEEPS, BY_SWEEPS, scheme="gauss"),
         own("galerkin8", "Galerkin DQVI, order 8", 8, BY_SWEEPS, BY_SWEEPS, scheme="galerkin"),
+        own("rk4", "Runge-Kutta on the momentum, order 4", 4, 4, 4, scheme="runge_kutta"),
         own("rk8", "Runge-Kutta on the momentum, order 8", 8, 12, 12, scheme="runge_kutta"),
         baseline("rk4_quaternion", "RK4, quaternion", "Runge-Kutta", 4, 4, make_rk4_quaternion),
         baseline("rk4_transported", "RK4, momentum transported", "Runge-Kutta", 4, 4, make_rk4_transported),
@@ -210,7 +211,7 @@ SWEPT = tuple(
 )
 """Methods that solve a step by sweeps."""
 
-WITH_STAGES = (*SWEPT, "rk8")
+WITH_STAGES = (*SWEPT, "rk4", "rk8")
 """The product's methods that leave steps which are too long for them to one of second order."""
 
 UNSWEPT = {name: method for name, method in METHODS.items() if name not in SWEPT}

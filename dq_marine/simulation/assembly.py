@@ -44,7 +44,7 @@ ORDERS = (2, *STAGES)
 
 ONLY_WITH_STAGES = {
     "gauss": "orders 6 and 8 alone; give one of them",
-    "runge_kutta": "order 8 alone; give order=8",
+    "runge_kutta": "orders 4 and 8 alone; give one of them",
 }
 """Schemes that have no order but those with stages of their own, and which these are."""
 

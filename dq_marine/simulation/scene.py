@@ -80,7 +80,7 @@ class Scene:
             step: step size h [s]; a negative one runs time backwards, in a scene without dissipation.
             order: order of the method: 2 or 4; or 6 or 8 in a scene without damping and velocity forces, or with
                 "galerkin" in any; 6 or 8 of "gauss", where 8 is of order 7 with damping, and 6 is without
-                damping only; 8 of "runge_kutta".
+                damping only; 4 or 8 of "runge_kutta".
             kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
             hydrostatics: "linear": for a vessel that floats, its waterplane's restoring force for small motions, and
                 for any other vehicle, weight and buoyancy under water; or "hull": buoyancy of the boxes of its hull at

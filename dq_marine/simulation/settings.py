@@ -95,7 +95,7 @@ class Settings:
             and energy but not variational, with damping L-stable; or "runge_kutta" for an explicit method, the
             cheapest for a batch that is to be exact and is not stiff.
         order: of the method: 2 or 4, and 6 or 8 where nothing takes energy, or with "galerkin"; 6 or 8 of "gauss",
-            where 8 is of order 7 with damping; 8 of "runge_kutta".
+            where 8 is of order 7 with damping; 4 or 8 of "runge_kutta".
         kick: "l_stable", or "implicit_node", which keeps the step symmetric but rings under stiff damping.
         control_period: time between actions [s].
         substeps: integrator steps in a control period.

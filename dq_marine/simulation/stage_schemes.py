@@ -110,26 +110,27 @@ def galerkin_timing(damping: DampingTerm, step: float) -> FallbackTiming:
 
 
 @functools.cache
-def runge_kutta_composition(strang: Composition, drag: VelocityForces) -> Composition:
-    """Return the composition of the explicit Runge-Kutta method."""
-    return replace(with_drag(strang, drag), method=make_runge_kutta, fallback=make_advance(strang))
+def runge_kutta_composition(strang: Composition, order: int, drag: VelocityForces) -> Composition:
+    """Return the composition of an explicit Runge-Kutta method."""
+    method = make_runge_kutta(order)
+    return replace(with_drag(strang, drag), method=method, fallback=make_advance(strang))
 
 
 def compose_runge_kutta(
     strang: Composition, order: int, damping: DampingTerm, potentials: Potentials
 ) -> Composition:
-    """Return the same; it has one order, and needs no potentials."""
-    return runge_kutta_composition(strang, drag_of(damping))
+    """Return the same; it needs no potentials."""
+    return runge_kutta_composition(strang, order, drag_of(damping))
 
 
 def runge_kutta_timing(damping: DampingTerm, step: float) -> FallbackTiming:
-    """Return the timing of the explicit Runge-Kutta method."""
+    """Return the timing of an explicit Runge-Kutta method."""
     return FallbackTiming(step, damping.timing(step))
 
 
 STAGE_SCHEMES = {
     "galerkin": StageScheme((4, 6, 8), compose_galerkin, galerkin_timing),
     "gauss": StageScheme((6, 8), compose_gauss, gauss_timing),
-    "runge_kutta": StageScheme((8,), compose_runge_kutta, runge_kutta_timing),
+    "runge_kutta": StageScheme((4, 8), compose_runge_kutta, runge_kutta_timing),
 }
 """By name."""

@@ -48,6 +48,7 @@ STYLES = {
     "dqvi8": LineStyle(PURPLE, "^"),
     "gauss6": LineStyle(GREEN, "d", DASHDOT),
     "gauss8": LineStyle(BLACK, "d", DASHDOT),
+    "rk4": LineStyle(SKY, "v", DASHDOT),
     "rk8": LineStyle(SKY, "h", DASHDOT),
     "galerkin8": LineStyle(PURPLE, "^", DASHED, filled=False),
     "dqvi_paper": LineStyle(BLUE, "o", DASHED, filled=False),

@@ -63,6 +63,12 @@ CASES = {
     },
     "implicit node": {"l_stable": False, "linear": LINEAR, "quadratic": QUADRATIC},
     "runge_kutta, free": {"order": 8, "scheme": "runge_kutta", "current": CURRENT},
+    "runge_kutta of order 4, forces": {
+        "order": 4,
+        "scheme": "runge_kutta",
+        "forces": FORCES[:2],
+        **GRAVITY,
+    },
     "runge_kutta, forces": {"order": 8, "scheme": "runge_kutta", "forces": FORCES[:2], **GRAVITY},
     "gauss, free": {"order": 8, "scheme": "gauss", "current": CURRENT},
     "gauss of order 6, free": {"order": 6, "scheme": "gauss", "current": CURRENT},

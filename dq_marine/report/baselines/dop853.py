@@ -13,7 +13,7 @@ from dq_marine.algebra.dual_quaternion import pose_position
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.stages import weighted_sum
 from dq_marine.integrator.body import BodyState
-from dq_marine.integrator.dormand_prince import WEIGHTS, make_stages, rates
+from dq_marine.integrator.dormand_prince import DORMAND_PRINCE
 from dq_marine.integrator.step import Advance, Composition, StepOutcome, StepParameters
 from dq_marine.report.baselines.dynamics import Point, make_landing
 from dq_marine.report.baselines.normalisation import normalised
@@ -29,32 +29,27 @@ class Step(NamedTuple):
     wrench: Spatial
 
 
-class Found(NamedTuple):
-    """Rates at a stage, times h."""
-
-    rate: Rates
-
-
 def follow(point: Point, change: Rates) -> Point:
     """Return point + change."""
     return moved(point, 1.0, change)
 
 
-def make_find(composition: Composition) -> Callable[[Step, float, Point], Found]:
-    """Return (step, share of it that is over, point) -> the rates there."""
+def make_find(composition: Composition) -> Callable[[Step, float, Point], Rates]:
+    """Return (step, share of it that is over, point) -> the rates there, times h."""
     rates_at = make_rates(composition)
 
-    def find(step: Step, share: float, point: Point) -> Found:
+    def find(step: Step, share: float, point: Point) -> Rates:
         h = step.parameters.timing.h
         there = rates_at(step.parameters, point, step.time, step.elapsed + share * h, step.wrench)
-        return Found(weighted_sum((h,), (there,)))
+        scaled: Rates = weighted_sum((h,), (there,))
+        return scaled
 
     return find
 
 
 def make_dop853(composition: Composition) -> Advance:
     """Return the advance: twelve evaluations of all forces a step."""
-    stages = make_stages(make_find(composition), follow)
+    take_step = DORMAND_PRINCE.make_step(make_find(composition), follow)
     land = make_landing(composition)
 
     def dop853(
@@ -63,8 +58,7 @@ def make_dop853(composition: Composition) -> Advance:
         h = parameters.timing.h
         point = Point(state.pose.real, pose_position(state.pose), state.momentum)
         for step in range(steps):
-            found = stages(Step(parameters, time, step * h, wrench), point)
-            reached = follow(point, weighted_sum(WEIGHTS, rates(found)))
+            reached = follow(point, take_step(Step(parameters, time, step * h, wrench), point).change)
             point = Point(normalised(reached.attitude), reached.position, reached.momentum)
         return land(parameters, state, point, time, steps, 0)
 

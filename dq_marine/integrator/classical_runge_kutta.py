@@ -1,0 +1,54 @@
+"""The classical explicit Runge-Kutta method of order 4 (E1), with four stages.
+
+For y' = z y, k_3 - k_2 = (z/2) (k_2 - k_1): two differences of rates tell how long a step is.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from dq_marine.algebra.stages import Weights, weighted_sum
+from dq_marine.integrator.explicit import Explicit, Extent, Find, Follow, IsStable, Taken, TakeStep
+
+HALF: Weights = (0.5,)
+WHOLE: Weights = (1.0,)
+DIFFERENCE: Weights = (1.0, -1.0)
+WEIGHTS: Weights = (1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0)
+"""b_i."""
+
+LARGEST_RATIO = 1.4
+"""Half of |z| up to which the method is stable: to -2.79 and 2.83i (Hairer, Wanner 1996, Solving Ordinary Differential
+Equations II, sec. IV.2)."""
+
+
+class Telling(NamedTuple):
+    """k_3 - k_2, and k_2 - k_1."""
+
+    second: Any
+    first: Any
+
+
+def make_step(find: Find, follow: Follow) -> TakeStep:
+    """Return (E1): a step."""
+
+    def step(context: Any, start: Any) -> Taken:
+        k1 = find(context, 0.0, start)
+        k2 = find(context, 0.5, follow(start, weighted_sum(HALF, (k1,))))
+        k3 = find(context, 0.5, follow(start, weighted_sum(HALF, (k2,))))
+        k4 = find(context, 1.0, follow(start, weighted_sum(WHOLE, (k3,))))
+        telling = Telling(weighted_sum(DIFFERENCE, (k3, k2)), weighted_sum(DIFFERENCE, (k2, k1)))
+        return Taken(weighted_sum(WEIGHTS, (k1, k2, k3, k4)), telling)
+
+    return step
+
+
+def make_is_stable(extent: Extent) -> IsStable:
+    """Return whether a step was short enough."""
+
+    def is_stable(context: Any, rates: Telling, blur: float) -> bool:
+        return extent(context, rates.second) <= LARGEST_RATIO**2 * extent(context, rates.first) + blur
+
+    return is_stable
+
+
+CLASSICAL = Explicit(4, make_step, make_is_stable)
