@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -215,6 +215,28 @@ def damped_bluerov2(times: int = 1) -> Case:
     )
 
 
+LINEARISED_AT = 0.5
+"""Speed at which the linear damping is as strong as linear and quadratic damping together [m/s, rad/s]."""
+
+
+def linear_bluerov2() -> Case:
+    """Return the BlueROV2 Heavy under the same thrust, with damping in proportion to its velocity."""
+    usual = damped_bluerov2()
+    physics = usual.physics
+    linear = physics.linear + LINEARISED_AT * np.diag(physics.quadratic)
+    note = (
+        "The same with linear damping, as strong as that of the case before at 0.5 m/s and 0.5 rad/s: without kinks at "
+        "the zeros of velocities, which bound the order of most methods there."
+    )
+    return replace(
+        usual,
+        name="linear_bluerov2",
+        title="BlueROV2 Heavy, linear damping",
+        physics=replace(physics, linear=linear, quadratic=np.zeros(6)),
+        note=note,
+    )
+
+
 def ship_restoring() -> Case:
     """Return the supply vessel, under way and rocking."""
     restoring = Waterplane(*SUPPLY_VESSEL_RESTORING)
@@ -247,6 +269,7 @@ CASES = {
         heavy_top(),
         coupled_rexrov(),
         damped_bluerov2(),
+        linear_bluerov2(),
         damped_bluerov2(30),
         damped_bluerov2(1000),
         ship_restoring(),

@@ -42,4 +42,6 @@ def kind_of(case: str) -> str:
     rate = damping_rate(CASES[case]) if case in CASES else 0.0
     if rate == 0.0:
         return "motion without damping"
+    if not CASES[case].physics.quadratic.any():
+        return "linearly damped motion"
     return "damped motion" if rate < STRONG else f"damping rates beyond {STRONG:g}/s"
