@@ -1,6 +1,6 @@
 """The classical explicit Runge-Kutta method of order 4 (E1), with four stages.
 
-For y' = z y, k_3 - k_2 = (z/2) (k_2 - k_1): two differences of rates tell how long a step is.
+For y' = z y, k_3 - k_2 = (z/2) (k_2 - k_1) = (z/2)^2 k_1: differences of rates tell how long a step is.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ DIFFERENCE: Weights = (1.0, -1.0)
 WEIGHTS: Weights = (1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0)
 """b_i."""
 
-LARGEST_RATIO = 1.4
-"""Half of |z| up to which the method is stable: to -2.79 and 2.83i (Hairer, Wanner 1996, Solving Ordinary Differential
-Equations II, sec. IV.2)."""
+LARGEST_HALF = 1.31
+"""Of |z|: up to there the method is stable for every z whose real part is not positive."""
 
 
 class Telling(NamedTuple):
-    """k_3 - k_2, and k_2 - k_1."""
+    """k_3 - k_2, k_2 - k_1, and k_1."""
 
-    second: Any
+    second_difference: Any
+    first_difference: Any
     first: Any
 
 
@@ -36,17 +36,23 @@ def make_step(find: Find, follow: Follow) -> TakeStep:
         k2 = find(context, 0.5, follow(start, weighted_sum(HALF, (k1,))))
         k3 = find(context, 0.5, follow(start, weighted_sum(HALF, (k2,))))
         k4 = find(context, 1.0, follow(start, weighted_sum(WHOLE, (k3,))))
-        telling = Telling(weighted_sum(DIFFERENCE, (k3, k2)), weighted_sum(DIFFERENCE, (k2, k1)))
+        telling = Telling(weighted_sum(DIFFERENCE, (k3, k2)), weighted_sum(DIFFERENCE, (k2, k1)), k1)
         return Taken(weighted_sum(WEIGHTS, (k1, k2, k3, k4)), telling)
 
     return step
 
 
 def make_is_stable(extent: Extent) -> IsStable:
-    """Return whether a step was short enough."""
+    """Return whether a step was short enough.
+
+    It is if one of both proportions says so: in an oscillation k_2 - k_1 passes through zero where k_1 does not, and
+    under forces that change with time it is the other way round.
+    """
 
     def is_stable(context: Any, rates: Telling, blur: float) -> bool:
-        return extent(context, rates.second) <= LARGEST_RATIO**2 * extent(context, rates.first) + blur
+        by_difference = LARGEST_HALF**2 * extent(context, rates.first_difference)
+        by_rate = LARGEST_HALF**4 * extent(context, rates.first)
+        return extent(context, rates.second_difference) <= max(by_difference, by_rate) + blur
 
     return is_stable
 

@@ -48,8 +48,8 @@ class Explicit(NamedTuple):
     Attributes:
         order: of convergence.
         make_step: (find, follow) -> its step.
-        make_is_stable: (extent) -> whether a step was short enough. It goes by proportions alone: deviations that
-            steps would make grow are found however small they are.
+        make_is_stable: (extent) -> whether a step was short enough. It goes by proportions of rates: deviations that
+            steps would make grow are found before they are as large as these.
     """
 
     order: int

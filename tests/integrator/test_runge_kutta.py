@@ -75,20 +75,20 @@ def test_coefficients_meet_conditions_of_order():
 
 
 @pytest.mark.parametrize("method", [CLASSICAL, DORMAND_PRINCE], ids=lambda method: f"order {method.order}")
-@pytest.mark.parametrize("direction", [-1.0, 1.0j, np.exp(0.75j * np.pi)], ids=["damping", "turning", "both"])
+@pytest.mark.parametrize("direction", [-1.0, 1.0j, np.exp(0.75j * np.pi), np.exp(0.65j * np.pi)])
 def test_a_step_is_found_too_long_where_it_makes_deviations_grow(method, direction):
-    """Y' = z y, with a deviation of any size: growth by more than a factor of four is found, and little else."""
+    """Of y' = z y, with a deviation of any size: whatever would grow is found, and little else."""
     take_step = method.make_step(lambda z, share, y: z * y, lambda y, change: y + change)
     is_stable = method.make_is_stable(lambda z, change: abs(change) ** 2)
-    for length in np.geomspace(0.01, 1e6, 400):
+    for length in np.geomspace(0.01, 1e6, 4000):
         z = complex(length * direction)
         for deviation in (1e-6, 1.0):
             taken = take_step(z, deviation)
             growth = abs(1.0 + taken.change / deviation)
             stable = is_stable(z, taken.rates, 0.0)
-            if growth > 4.0 or length > 8.5:
+            if growth > 1.0 + 1e-3:
                 assert not stable, (z, growth)
-            if length < 0.9 * (2.785 if method.order == 4 else 6.0):
+            if length < (2.6 if method.order == 4 else 5.0):
                 assert stable, (z, growth)
 
 
