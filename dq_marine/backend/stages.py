@@ -99,7 +99,7 @@ def constants(typing_context: Any, weights: Any, like: Any) -> Any:
 
 
 @intrinsic
-def weighted_sum(typing_context: Any, weights: Any, structure: Any) -> Any:
+def sum_of_stages(typing_context: Any, weights: Any, structure: Any) -> Any:
     """sum_j w_j x_j of (nested tuples of) stages."""
     count = len(weights.types)
     result = mapped(structure, of_one_stage)
@@ -334,7 +334,7 @@ def _stage_constants(weights: Any, like: Any) -> Any:
 
 @provide(stages.stage_sum)
 def _stage_sum(weights: Any, structure: Any) -> Any:
-    return lambda weights, structure: weighted_sum(weights, structure)
+    return lambda weights, structure: sum_of_stages(weights, structure)
 
 
 @provide(stages.weighted_sum)
@@ -345,7 +345,7 @@ def _weighted_sum(weights: Any, structures: Any) -> Any:
 @provide(stages.stage_product)
 def _stage_product(matrix: Any, structure: Any) -> Any:
     if len(matrix.types) == 1:
-        return lambda matrix, structure: weighted_sum(matrix[0], structure)
+        return lambda matrix, structure: sum_of_stages(matrix[0], structure)
     return lambda matrix, structure: matrix_product(matrix, structure)
 
 

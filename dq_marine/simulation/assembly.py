@@ -42,11 +42,8 @@ ORDERS = (2, *STAGES)
 """Orders that a method may have."""
 
 
-ONLY_WITH_STAGES = {
-    "gauss": "orders 6 and 8 alone; give one of them",
-    "runge_kutta": "orders 4 and 8 alone; give one of them",
-}
-"""Schemes that have no order but those with stages of their own, and which these are."""
+ONLY_WITH_STAGES = ("gauss", "runge_kutta")
+"""Schemes that have no order but those with stages of their own."""
 
 
 def check_method(scheme: str, order: int) -> None:
@@ -57,8 +54,10 @@ def check_method(scheme: str, order: int) -> None:
     """
     one_of("scheme", scheme, SCHEMES)
     if scheme in ONLY_WITH_STAGES and order not in STAGE_SCHEMES[scheme].orders:
+        orders = " and ".join(map(str, STAGE_SCHEMES[scheme].orders))
         raise InvalidInputError(
-            f"order = {shown(order)}, but scheme = {scheme!r} has {ONLY_WITH_STAGES[scheme]}, or give another scheme"
+            f"order = {shown(order)}, but scheme = {scheme!r} has orders {orders} alone; give one of them, or another "
+            "scheme"
         )
     one_of("order", order, ORDERS)
 

@@ -81,11 +81,16 @@ def compose_gauss(
     return gauss_composition(strang, order, potentials)
 
 
+def fallback_timing(damping: DampingTerm, step: float) -> FallbackTiming:
+    """Return the timing of a method that needs the step size alone, and whose fallback is one step of Strang's."""
+    return FallbackTiming(step, damping.timing(step))
+
+
 def gauss_timing(damping: DampingTerm, step: float) -> FallbackTiming | DampedTiming:
     """Return the timing of the same."""
     if damping.names:
         return DampedTiming(step, damping.drag[0].parameters, damping.timing(step))
-    return FallbackTiming(step, damping.timing(step))
+    return fallback_timing(damping, step)
 
 
 @functools.cache
@@ -123,14 +128,9 @@ def compose_runge_kutta(
     return runge_kutta_composition(strang, order, drag_of(damping))
 
 
-def runge_kutta_timing(damping: DampingTerm, step: float) -> FallbackTiming:
-    """Return the timing of an explicit Runge-Kutta method."""
-    return FallbackTiming(step, damping.timing(step))
-
-
 STAGE_SCHEMES = {
     "galerkin": StageScheme((4, 6, 8), compose_galerkin, galerkin_timing),
     "gauss": StageScheme((6, 8), compose_gauss, gauss_timing),
-    "runge_kutta": StageScheme((4, 8), compose_runge_kutta, runge_kutta_timing),
+    "runge_kutta": StageScheme((4, 8), compose_runge_kutta, fallback_timing),
 }
 """By name."""
