@@ -119,34 +119,6 @@ def sum_of_stages(typing_context: Any, weights: Any, structure: Any) -> Any:
 
 
 @intrinsic
-def sum_of_structures(typing_context: Any, weights: Any, structures: Any) -> Any:
-    """sum_j w_j x_j of (nested tuples of) ordinary numbers of one type."""
-    kinds = structures.types
-    count = len(kinds)
-    if any(kind != kinds[0] for kind in kinds):
-        raise TypingError(f"{kinds} are not of one kind; sums are of structures of one type")
-    result = kinds[0]
-
-    def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
-        def build(kind: Any, members: list[Any]) -> Any:
-            if isinstance(kind, types.BaseTuple):
-                inner = [
-                    build(part, [builder.extract_value(member, index) for member in members])
-                    for index, part in enumerate(kind.types)
-                ]
-                return context.make_tuple(builder, kind, inner)
-            factors = weights_of(context, builder, weights, values[0], count, kind)
-            flags = flags_of(kind)
-            return summed(
-                builder, [builder.fmul(w, x, flags) for w, x in zip(factors, members, strict=True)], flags
-            )
-
-        return build(result, [builder.extract_value(values[1], j) for j in range(count)])
-
-    return signature(result, weights, structures), generate
-
-
-@intrinsic
 def matrix_product(typing_context: Any, matrix: Any, structure: Any) -> Any:
     """sum_j A_ij x_j of (nested tuples of) stages, at all stages i."""
     count = len(matrix.types)
@@ -335,11 +307,6 @@ def _stage_constants(weights: Any, like: Any) -> Any:
 @provide(stages.stage_sum)
 def _stage_sum(weights: Any, structure: Any) -> Any:
     return lambda weights, structure: sum_of_stages(weights, structure)
-
-
-@provide(stages.weighted_sum)
-def _weighted_sum(weights: Any, structures: Any) -> Any:
-    return lambda weights, structures: sum_of_structures(weights, structures)
 
 
 @provide(stages.stage_product)

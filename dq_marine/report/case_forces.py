@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_position
+from dq_marine.algebra.elementary import sine_and_cosine
 from dq_marine.algebra.quaternion import world_down_in_body
 from dq_marine.algebra.spatial import Spatial, spatial_add_scaled, spatial_scale
 from dq_marine.algebra.vector3 import scale
@@ -27,8 +27,8 @@ class Oscillation(NamedTuple):
 
 def oscillation(term: Oscillation, pose: DualQuaternion, time: float) -> Spatial:
     """Return sine sin(w t) + cosine cos(w t)."""
-    angle = term.frequency * time
-    return spatial_add_scaled(spatial_scale(math.sin(angle), term.sine), math.cos(angle), term.cosine)
+    sine, cosine = sine_and_cosine(term.frequency * time)
+    return spatial_add_scaled(spatial_scale(sine, term.sine), cosine, term.cosine)
 
 
 class Waterplane(NamedTuple):
