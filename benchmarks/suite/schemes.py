@@ -64,6 +64,8 @@ WAYS = (
     Way("galerkin", 4, 1),
     Way("galerkin", 8, 1),
     Way("gauss", 8, 1),
+    Way("runge_kutta", 4, 1),
+    Way("runge_kutta", 8, 1),
 )
 REFERENCE = Way("midpoint", 4, FINE)
 

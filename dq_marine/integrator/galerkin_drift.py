@@ -24,13 +24,8 @@ from dq_marine.integrator.collocation import gauss
 from dq_marine.integrator.drift import Drift, transport_momentum
 from dq_marine.integrator.drift_report import DriftReport, is_energy_kept
 from dq_marine.integrator.galerkin_curve import Node, attitude_from, make_node_at, travelled
-from dq_marine.integrator.galerkin_sweeps import (
-    half_matrix,
-    make_first_nodes,
-    make_sweeps,
-    relative_change_squared,
-    scales_of,
-)
+from dq_marine.integrator.galerkin_first_curve import half_matrix, make_first_nodes
+from dq_marine.integrator.galerkin_sweeps import make_sweeps, relative_change_squared, scales_of
 from dq_marine.integrator.inertia import Inertia
 
 
@@ -53,8 +48,7 @@ def make_galerkin_drift(stages: int) -> Drift:
         inverse, start = inertia.inverse, spatial_scale(h, momentum)
         nothing = spatial_scale(0.0, start)
         scales = scales_of(inverse, start, matrix6_transform(inverse, start), nothing)
-        first = first_nodes(inverse, start, nothing)
-        node, report = sweeps((inverse, start), first, scales)
+        node, report = sweeps((inverse, start), first_nodes(inverse, start), scales)
         turn = attitude_from(quaternion_scale(0.5, stage_sum(weights, node.rates.turning)))  # (V6)
         way = stage_sum(weights, each_stage(weights, travelled, (node.attitude, node.velocity)))
         moved = pose_renormalise(dual_multiply(pose, pose_from_parts(turn, way)))

@@ -12,23 +12,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.matrix3 import trace, transform
-from dq_marine.algebra.quaternion import quaternion_from_vector
 from dq_marine.algebra.selection import negation, select, smallest_normal, some, spread
-from dq_marine.algebra.spatial import Matrix6, Spatial, matrix6_transform, spatial_add, spatial_scale
-from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum
+from dq_marine.algebra.spatial import Matrix6, Spatial
+from dq_marine.algebra.stages import each_stage, stage_sum
 from dq_marine.algebra.vector3 import dot
 from dq_marine.integrator.collocation import Collocation
 from dq_marine.integrator.drift_report import SolverReport, accepted_squared, converged_squared
-from dq_marine.integrator.galerkin_curve import Rates, change_squared, make_first_node, turning_from
+from dq_marine.integrator.galerkin_curve import Rates, change_squared
 
 MAX_SWEEPS = 40
 UNTESTED = 4  # sweeps before changes are looked at
 HOPELESS = 1e4  # squared change of a sweep that diverges
 PATIENCE = 8  # sweeps after which the squared change must be promising: else pieces of the step cost less
 PROMISING = 5e-7
-KIRCHHOFF_SWEEPS = 3  # for the first guess: more would not bring it closer than both collocations differ
 FASTEST_TRUSTED = 0.002  # of the squared change between two sweeps: it is not taken to shrink faster
 SMALL_PART = 1e-4  # of the squared parts of a velocity that cancel: their round-off is not to be waited for
 
@@ -39,11 +36,6 @@ class Scales(NamedTuple):
     turning: float
     forcing: float
     pushing: float
-
-
-def half_matrix(method: Collocation) -> tuple[tuple[float, ...], ...]:
-    """Return A/2."""
-    return tuple(tuple(0.5 * entry for entry in row) for row in method.matrix)
 
 
 def scales_of(inverse: Matrix6, start: Spatial, twist: Spatial, wrench: Spatial) -> Scales:
@@ -69,38 +61,6 @@ def relative_change_squared(scales: Scales, after: Rates, before: Rates) -> floa
     """Return the squared change of a free step's rates at a node."""
     turned = change_squared(after.turning, before.turning)
     return scales.turning * turned + scales.forcing * change_squared(after.forcing, before.forcing)
-
-
-def kirchhoff_rate(momentum: Spatial, twist: Spatial, wrench: Spatial) -> Spatial:
-    """Return mu' of Kirchhoff's equations under a wrench."""
-    return spatial_add(momentum_bracket(twist, momentum), wrench)
-
-
-def momentum_and_twist(inverse: Matrix6, start: Spatial, change: Spatial) -> tuple[Spatial, Spatial]:
-    """Return mu and M^-1 mu, where the momentum has changed since the start."""
-    there = spatial_add(start, change)
-    return there, matrix6_transform(inverse, there)
-
-
-def make_first_nodes(method: Collocation) -> Callable[[Matrix6, Spatial, Spatial], Any]:
-    """Return (M^-1, start, wrench) -> nodes of a curve that nearly follows Kirchhoff's equations in the body frame."""
-    weights, nodes, matrix = method.weights, method.nodes, method.matrix
-    halved, first_node = half_matrix(method), make_first_node(len(weights))
-
-    def first_nodes(inverse: Matrix6, start: Spatial, wrench: Spatial) -> Any:
-        slope = kirchhoff_rate(start, matrix6_transform(inverse, start), wrench)
-        change = each_stage(weights, spatial_scale, (stage_constants(nodes, start.angular[0]), slope))
-        there, twist = each_stage(weights, momentum_and_twist, (inverse, start, change))
-        turning = each_stage(weights, quaternion_from_vector, (twist.angular,))
-        for _ in range(KIRCHHOFF_SWEEPS):
-            change = stage_product(matrix, each_stage(weights, kirchhoff_rate, (there, twist, wrench)))
-            there, twist = each_stage(weights, momentum_and_twist, (inverse, start, change))
-            turning = each_stage(weights, turning_from, (stage_product(halved, turning), twist.angular))
-        sigma = stage_product(matrix, each_stage(weights, dot, (there.angular, twist.angular)))
-        guess = (inverse, start.linear, stage_product(halved, turning), there.angular, sigma)
-        return each_stage(weights, first_node, guess)
-
-    return first_nodes
 
 
 def make_sweeps(

@@ -208,6 +208,20 @@ def test_time_runs_backwards_and_returns_to_the_start(order):
     assert np.allclose(back.get_state(), start, rtol=0, atol=1e-12)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_fine_steps_under_weight_take_as_few_sweeps_as_free_ones(seed):
+    """The first curve feels the forces where it leads."""
+    inertia, steps = random_inertia(np.random.default_rng(seed)), 20
+    counts = []
+    for forces in ({}, {"excess_weight": 2.0, "arm": (0.2, -0.1, 1.0)}):
+        body = make_body(inertia, 0.02, scheme="galerkin", order=8, **forces)
+        body.reset(velocity_body=(0.5, -0.3, 0.2, 0.4, 0.6, -0.5))
+        body.step(FREE, steps)
+        counts.append(body.newton_iterations)
+    free, forced = counts
+    assert free <= forced <= free + steps // 4
+
+
 def test_a_step_that_sweeps_do_not_solve_is_taken_by_the_fallback_and_counted():
     rng = np.random.default_rng(2)
     body = make_body(random_inertia(rng), 0.5, scheme="galerkin", order=8, kind=PlainBody)

@@ -7,12 +7,15 @@ import pytest
 
 from dq_marine.algebra.spatial import from_fossen
 from dq_marine.backend.packing import pack
+from dq_marine.integrator.classical_runge_kutta import CLASSICAL
+from dq_marine.integrator.dormand_prince import DORMAND_PRINCE
 from dq_marine.integrator.step import ACCEPTED, make_advance
 from dq_marine.report.cases import CASES
 from dq_marine.report.end_state import end_of, errors
 from dq_marine.report.methods import METHODS, drag_terms
 from dq_marine.report.physics import Physics
 from dq_marine.report.references import reference
+from dq_marine.report.showing.stability_view import DOP853_IMAGINARY, DOP853_REAL, RK4_IMAGINARY, RK4_REAL
 from dq_marine.simulation.batch import Batch
 
 LANES = 9
@@ -136,3 +139,16 @@ def test_rk4_in_lanes_has_the_bits_of_a_single_body():
     batch.step(case.wrench, 50)
     assert batch.refusals == {}
     assert np.array_equal(batch.get_state(), np.tile(body.get_state(), (LANES, 1)))
+
+
+@pytest.mark.parametrize(
+    ("method", "real", "imaginary"),
+    [(CLASSICAL, RK4_REAL, RK4_IMAGINARY), (DORMAND_PRINCE, DOP853_REAL, DOP853_IMAGINARY)],
+    ids=["RK4", "DOP853"],
+)
+def test_stability_ends_where_the_report_says(method, real, imaginary):
+    """Of y' = z y: a step makes y no larger just within the bounds, and larger just beyond."""
+    take_step = method.make_step(lambda z, share, y: z * y, lambda y, change: y + change)
+    for end in (-real, 1j * imaginary):
+        assert abs(1.0 + take_step(complex(0.9999 * end), 1.0).change) < 1.0
+        assert abs(1.0 + take_step(complex(1.0001 * end), 1.0).change) > 1.0

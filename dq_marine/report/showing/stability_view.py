@@ -17,6 +17,9 @@ from dq_marine.util.plot_style import BLUE, INK, VERMILLION, style_of
 RK4_REAL, RK4_IMAGINARY = 2.785293563405282, 2.0 * math.sqrt(2.0)
 """Where RK4's stability region ends on the negative real axis and on the imaginary one."""
 
+DOP853_REAL, DOP853_IMAGINARY = 6.39369, 5.96043
+"""The same of DOP853."""
+
 TITLES = {
     "damping": ("Damping: largest stable step", "damping rate lambda [1/s]"),
     "restoring": ("Righting moment: largest stable step", "natural frequency omega [rad/s]"),
@@ -26,17 +29,25 @@ BOUNDS: dict[str, dict[str, float]] = {
     "damping": {
         "rk4_quaternion": RK4_REAL,
         "rk4_euler": RK4_REAL,
+        "rk4_transported": RK4_REAL,
         "rkmk4": RK4_REAL,
+        "dop853": DOP853_REAL,
         "explicit_euler": 2.0,
         "semi_implicit_euler": 2.0,
         "dqvi_paper": math.inf,
         "dqvi2": math.inf,
         "dqvi4": math.inf,
+        "gauss8": math.inf,
+        "galerkin8": math.inf,
+        "rk4": math.inf,
+        "rk8": math.inf,
     },
     "restoring": {
         "rk4_quaternion": RK4_IMAGINARY,
         "rk4_euler": RK4_IMAGINARY,
+        "rk4_transported": RK4_IMAGINARY,
         "rkmk4": RK4_IMAGINARY,
+        "dop853": DOP853_IMAGINARY,
         "explicit_euler": 0.0,
         "semi_implicit_euler": 2.0,
         "dqvi_paper": 2.0,
