@@ -161,3 +161,18 @@ def _leaf_count(part: types.Type) -> int:
     if not isinstance(part, types.BaseTuple):
         return 1
     return sum(_leaf_count(inner) for inner in part.types)
+
+
+def leaf_types(kind: types.Type) -> list[Any]:
+    """Return the types of a structure's numbers, depth first."""
+    if not isinstance(kind, types.BaseTuple):
+        return [kind]
+    return [leaf for inner in kind.types for leaf in leaf_types(inner)]
+
+
+def leaves(builder: Any, kind: types.Type, value: Any) -> list[Any]:
+    """Return the LLVM values of a structure's numbers, depth first."""
+    if not isinstance(kind, types.BaseTuple):
+        return [value]
+    parts = [leaves(builder, inner, builder.extract_value(value, i)) for i, inner in enumerate(kind.types)]
+    return [leaf for part in parts for leaf in part]

@@ -16,24 +16,14 @@ from numba.extending import intrinsic
 
 from dq_marine.algebra import stages
 from dq_marine.backend.lane_type import Lanes
+from dq_marine.backend.packing import leaf_types, leaves
 from dq_marine.backend.selection import provide
-from dq_marine.backend.stage_layout import flags_of, joined, summed, weights_of
+from dq_marine.backend.stage_layout import flags_of, joined, rebuilt, summed, weights_of
 
 WIDTH = 4
 """Numbers that are added up at once: doubles in a vector of 256 bits."""
 
 PACK = Lanes(types.float64, WIDTH, types.float64, False)
-
-
-def leaves(builder: Any, kind: types.Type, value: Any) -> list[tuple[types.Type, Any]]:
-    """Return the type and the value of every number in nested tuples."""
-    if not isinstance(kind, types.BaseTuple):
-        return [(kind, value)]
-    return [
-        leaf
-        for index, part in enumerate(kind.types)
-        for leaf in leaves(builder, part, builder.extract_value(value, index))
-    ]
 
 
 def in_packs(builder: Any, kinds: list[types.Type], structures: list[list[Any]]) -> list[Any]:
@@ -65,22 +55,17 @@ def sum_of_structures(typing_context: Any, weights: Any, structures: Any) -> Any
         raise TypingError(f"{structures.types} are not of one kind; sums are of structures of one type")
 
     def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
-        parts = [leaves(builder, result, builder.extract_value(values[1], j)) for j in range(count)]
-        kinds = [kind for kind, _ in parts[0]]
+        parts = [builder.extract_value(values[1], j) for j in range(count)]
         numbers: list[Any] = []
-        for kind, members in in_packs(builder, kinds, [[value for _, value in part] for part in parts]):
+        for kind, members in in_packs(
+            builder, leaf_types(result), [leaves(builder, result, part) for part in parts]
+        ):
             factors = weights_of(context, builder, weights, values[0], count, kind)
             flags = flags_of(kind)
             terms = [builder.fmul(w, x, flags) for w, x in zip(factors, members, strict=True)]
             numbers += unpacked(builder, kind, summed(builder, terms, flags))
-        remaining = iter(numbers)
-
-        def build(kind: types.Type) -> Any:
-            if not isinstance(kind, types.BaseTuple):
-                return next(remaining)
-            return context.make_tuple(builder, kind, [build(part) for part in kind.types])
-
-        return build(result)
+        sums = iter(numbers)
+        return rebuilt(context, builder, result, result, parts[0], lambda *_: next(sums))
 
     return signature(result, weights, structures), generate
 

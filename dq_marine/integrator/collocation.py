@@ -43,6 +43,11 @@ class Collocation(NamedTuple):
     order: int
 
 
+def half_matrix(method: Collocation) -> tuple[tuple[float, ...], ...]:
+    """Return A/2."""
+    return tuple(tuple(0.5 * entry for entry in row) for row in method.matrix)
+
+
 @functools.cache
 def gauss(stages: int) -> Collocation:
     """Return Gauss's method of so many stages."""

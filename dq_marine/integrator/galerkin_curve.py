@@ -147,18 +147,26 @@ def make_node_at(stages: int) -> Callable[[Matrix6, Spatial, Rates], Node]:
     return node_at
 
 
+def first_momentum(plain: bool, a: Vector3, sigma: float, b: Vector3) -> Momentum:
+    """Return a first guess of the momentum at a node from the angular and the linear one in the body frame.
+
+    `sigma` is the sum of a . omega, which sigma comes to but for one or two nodes.
+    """
+    return Momentum((0.0 * sigma if plain else sigma, a[0], a[1], a[2]), b)
+
+
 def make_first_node(stages: int) -> Callable[[Matrix6, Vector3, Quaternion, Vector3, float], Node]:
     """Return (M^-1, b at the start, half the sum of Gamma, a, the sum of a . omega) -> a first guess of a node.
 
-    a is the angular momentum in the body frame, and the last sum what sigma comes to but for one or two nodes.
+    a is the angular momentum in the body frame.
     """
     plain = is_plain(stages)
 
     def first_node(inverse: Matrix6, b: Vector3, half_sum: Quaternion, a: Vector3, sigma: float) -> Node:
         gamma = attitude_from(half_sum)
         gain = 1.0 / quaternion_dot(gamma, gamma)
-        turning = (0.0 * sigma if plain else sigma, a[0], a[1], a[2])
-        return node_of(plain, inverse, gamma, gain, Momentum(turning, turned_back(gamma, gain + gain, b)))
+        momentum = first_momentum(plain, a, sigma, turned_back(gamma, gain + gain, b))
+        return node_of(plain, inverse, gamma, gain, momentum)
 
     return first_node
 

@@ -20,11 +20,11 @@ from dq_marine.algebra.dual_quaternion import (
 from dq_marine.algebra.quaternion import quaternion_scale
 from dq_marine.algebra.spatial import Spatial, matrix6_transform, quadratic_form, spatial_scale
 from dq_marine.algebra.stages import each_stage, stage_product, stage_sum
-from dq_marine.integrator.collocation import gauss
+from dq_marine.integrator.collocation import gauss, half_matrix
 from dq_marine.integrator.drift import Drift, transport_momentum
 from dq_marine.integrator.drift_report import DriftReport, is_energy_kept
 from dq_marine.integrator.galerkin_curve import Node, attitude_from, make_node_at, travelled
-from dq_marine.integrator.galerkin_first_curve import half_matrix, make_first_nodes
+from dq_marine.integrator.galerkin_first_curve import make_first_nodes
 from dq_marine.integrator.galerkin_sweeps import make_sweeps, relative_change_squared, scales_of
 from dq_marine.integrator.inertia import Inertia
 

@@ -6,7 +6,7 @@ Sweeps of Kirchhoff's equations, with Gauss's matrix A, cost a third of a Galerk
 
 and their collocation differs from that of the Galerkin step by what both err at the nodes: beyond a few sweeps the
 first curve comes no closer. Forces are those at the step's start for the first sweeps, then those where the sweep
-before has led to.
+before has led.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from dq_marine.algebra.quaternion import (
 from dq_marine.algebra.spatial import Matrix6, Spatial, matrix6_transform, spatial_add, spatial_scale
 from dq_marine.algebra.stages import each_stage, stage_constants, stage_product
 from dq_marine.algebra.vector3 import Vector3, dot
-from dq_marine.integrator.collocation import Collocation
+from dq_marine.integrator.collocation import Collocation, half_matrix
 from dq_marine.integrator.galerkin_curve import (
-    Momentum,
     attitude_from,
+    first_momentum,
     is_plain,
     make_first_node,
     travelled,
@@ -46,11 +46,6 @@ from dq_marine.integrator.galerkin_forced_curve import (
 FREE_SWEEPS = 3
 STEADY_SWEEPS, FORCED_SWEEPS = 2, 2
 """With the forces at the start, and with those on the way."""
-
-
-def half_matrix(method: Collocation) -> tuple[tuple[float, ...], ...]:
-    """Return A/2."""
-    return tuple(tuple(0.5 * entry for entry in row) for row in method.matrix)
 
 
 def kirchhoff_rate(momentum: Spatial, twist: Spatial, wrench: Spatial) -> Spatial:
@@ -124,10 +119,11 @@ def make_first_motion(stages: int) -> Callable[[Spatial, Spatial, Quaternion, fl
     plain = is_plain(stages)
 
     def first_motion(there: Spatial, twist: Spatial, turn: Quaternion, sigma: float) -> Motion:
-        gamma, a = attitude_from(turn), there.angular
-        turning = (0.0 * sigma if plain else sigma, a[0], a[1], a[2])
+        gamma = attitude_from(turn)
         gain = 1.0 / quaternion_dot(gamma, gamma)
-        return motion_with(plain, gain, gamma, Momentum(turning, there.linear), twist)
+        return motion_with(
+            plain, gain, gamma, first_momentum(plain, there.angular, sigma, there.linear), twist
+        )
 
     return first_motion
 

@@ -24,11 +24,11 @@ from dq_marine.algebra.spatial import (
 )
 from dq_marine.algebra.stages import each_stage, stage_constants, stage_product, stage_sum
 from dq_marine.algebra.vector3 import dot, scale, subtract
-from dq_marine.integrator.collocation import Collocation
+from dq_marine.integrator.collocation import Collocation, half_matrix
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
 from dq_marine.integrator.galerkin_curve import attitude_from, change_squared
-from dq_marine.integrator.galerkin_first_curve import half_matrix, make_first_forced_nodes
+from dq_marine.integrator.galerkin_first_curve import make_first_forced_nodes
 from dq_marine.integrator.galerkin_forced_curve import (
     Flight,
     ForcedRates,

@@ -210,7 +210,7 @@ def test_time_runs_backwards_and_returns_to_the_start(order):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_fine_steps_under_weight_take_as_few_sweeps_as_free_ones(seed):
-    """The first curve feels the forces where it leads."""
+    """Forces act on the first curve already, where it leads."""
     inertia, steps = random_inertia(np.random.default_rng(seed)), 20
     counts = []
     for forces in ({}, {"excess_weight": 2.0, "arm": (0.2, -0.1, 1.0)}):

@@ -12,14 +12,7 @@ from numba.core.typing import signature
 from numba.extending import intrinsic
 
 from dq_marine.backend.lane_type import Lanes, extract, spread
-
-
-def leaves(builder: Any, kind: types.Type, value: Any) -> list[Any]:
-    """Return the LLVM values of a structure's numbers, depth first."""
-    if not isinstance(kind, types.BaseTuple):
-        return [value]
-    parts = [leaves(builder, inner, builder.extract_value(value, i)) for i, inner in enumerate(kind.types)]
-    return [leaf for part in parts for leaf in part]
+from dq_marine.backend.packing import leaf_types, leaves
 
 
 def make_load_rows(lanes: Lanes, columns: int) -> Callable[[Any, Any], Any]:
@@ -97,7 +90,7 @@ def store_rows(typing_context: Any, rows: Any, block: Any, structure: Any) -> An
     def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
         array = context.make_array(sig.args[0])(context, builder, values[0])
         numbers = leaves(builder, structure, values[2])
-        kinds = _leaf_types(structure)
+        kinds = leaf_types(structure)
         columns, width = len(numbers), kinds[0].width
         first = builder.mul(values[1], _integer(values[1], width * columns))
         written = [
@@ -123,7 +116,7 @@ def store_columns(typing_context: Any, columns: Any, block: Any, structure: Any)
     def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
         array = context.make_array(sig.args[0])(context, builder, values[0])
         bodies = cgutils.unpack_tuple(builder, array.shape, 2)[1]
-        kinds = _leaf_types(structure)
+        kinds = leaf_types(structure)
         for row, (kind, number) in enumerate(zip(kinds, leaves(builder, structure, values[2]), strict=True)):
             start = builder.mul(bodies, _integer(bodies, row))
             first = builder.add(start, builder.mul(values[1], _integer(values[1], kind.width)))
@@ -189,12 +182,6 @@ def _interleaved(builder: Any, a: Any, b: Any, size: int) -> tuple[Any, Any]:
 def _picked(builder: Any, a: Any, b: Any, places: Sequence[int]) -> Any:
     """Return the numbers at some places of two vectors, of which the second goes on counting, as a vector."""
     return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(ir.IntType(32), len(places)), list(places)))
-
-
-def _leaf_types(kind: types.Type) -> list[Any]:
-    if not isinstance(kind, types.BaseTuple):
-        return [kind]
-    return [leaf for inner in kind.types for leaf in _leaf_types(inner)]
 
 
 def _integer(like: Any, value: int) -> Any:
