@@ -78,6 +78,21 @@ def weighted_sum(weights: Weights, structures: tuple[Any, ...]) -> Any:
     return paired_sum([weight * part for weight, part in zip(weights, structures, strict=True)])
 
 
+def weighted_step(start: Any, h: float, weights: Weights, rates: tuple[Any, ...]) -> Any:
+    """Return x + sum_j (h w_j) k_j of (nested tuples of) ordinary numbers.
+
+    Args:
+        start: x.
+        h: how long the step is.
+        weights: one for each rate.
+        rates: one or more k_j, nested as x is.
+    """
+    if isinstance(start, tuple):
+        pairs = zip(start, zip(*rates, strict=True), strict=True)
+        return _alike(start, [weighted_step(part, h, weights, parts) for part, parts in pairs])
+    return start + paired_sum([(h * weight) * rate for weight, rate in zip(weights, rates, strict=True)])
+
+
 def stages_apart(weights: Weights, structure: Any) -> tuple[Any, ...]:
     """Return one structure of ordinary numbers for each stage."""
     return tuple(_at(structure, j) for j in range(len(weights)))

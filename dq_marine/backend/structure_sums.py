@@ -1,4 +1,4 @@
-"""`algebra.stages.weighted_sum` in compiled code: four numbers of one body at a time.
+"""`algebra.stages.weighted_sum` and `weighted_step` in compiled code: four numbers of one body at a time.
 
 Sums of many rates are a good part of an explicit method of high order. A body's numbers go into LLVM vectors once for
 all sums that they are in; bodies in lanes are vectors already. Every number is added up as it would be alone.
@@ -46,6 +46,12 @@ def unpacked(builder: Any, kind: types.Type, value: Any) -> list[Any]:
     return [builder.extract_element(value, ir.Constant(ir.IntType(32), place)) for place in range(WIDTH)]
 
 
+def products_summed(builder: Any, kind: types.Type, factors: list[Any], members: list[Any]) -> Any:
+    """Return the sum of factors times numbers."""
+    flags = flags_of(kind)
+    return summed(builder, [builder.fmul(w, x, flags) for w, x in zip(factors, members, strict=True)], flags)
+
+
 @intrinsic
 def sum_of_structures(typing_context: Any, weights: Any, structures: Any) -> Any:
     """sum_j w_j x_j of (nested tuples of) ordinary numbers of one type."""
@@ -61,15 +67,48 @@ def sum_of_structures(typing_context: Any, weights: Any, structures: Any) -> Any
             builder, leaf_types(result), [leaves(builder, result, part) for part in parts]
         ):
             factors = weights_of(context, builder, weights, values[0], count, kind)
-            flags = flags_of(kind)
-            terms = [builder.fmul(w, x, flags) for w, x in zip(factors, members, strict=True)]
-            numbers += unpacked(builder, kind, summed(builder, terms, flags))
+            numbers += unpacked(builder, kind, products_summed(builder, kind, factors, members))
         sums = iter(numbers)
         return rebuilt(context, builder, result, result, parts[0], lambda *_: next(sums))
 
     return signature(result, weights, structures), generate
 
 
+@intrinsic
+def step_of_structures(typing_context: Any, start: Any, lengths: Any, weights: Any, rates: Any) -> Any:
+    """A start x + sum_j (h w_j) k_j of (nested tuples of) ordinary numbers of one type; `lengths` is (h,).
+
+    All h w_j are found first: compilers take them out of the loop over the steps.
+    """
+    count = len(rates.types)
+    if any(leaf_types(kind) != leaf_types(start) for kind in rates.types):
+        raise TypingError(f"{rates.types} do not lead on from {start}; rates have the numbers that it has")
+
+    def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
+        parts = [builder.extract_value(values[3], j) for j in range(count)]
+        structures = [
+            leaves(builder, start, values[0]),
+            *(leaves(builder, kind, part) for kind, part in zip(rates.types, parts, strict=True)),
+        ]
+        numbers: list[Any] = []
+        for kind, (begun, *members) in in_packs(builder, leaf_types(start), structures):
+            flags = flags_of(kind)
+            (h,) = weights_of(context, builder, lengths, values[1], 1, kind)
+            shares = weights_of(context, builder, weights, values[2], count, kind)
+            factors = [builder.fmul(h, share, flags) for share in shares]
+            change = products_summed(builder, kind, factors, members)
+            numbers += unpacked(builder, kind, builder.fadd(begun, change, flags))
+        reached = iter(numbers)
+        return rebuilt(context, builder, start, start, values[0], lambda *_: next(reached))
+
+    return signature(start, start, lengths, weights, rates), generate
+
+
 @provide(stages.weighted_sum)
 def _weighted_sum(weights: Any, structures: Any) -> Any:
     return lambda weights, structures: sum_of_structures(weights, structures)
+
+
+@provide(stages.weighted_step)
+def _weighted_step(start: Any, h: Any, weights: Any, rates: Any) -> Any:
+    return lambda start, h, weights, rates: step_of_structures(start, (h,), weights, rates)

@@ -81,7 +81,8 @@ FORCE = Addition(
     name="force",
     heading="A force",
     what="A function `(parameters, pose, time) -> Spatial`, or with the velocity `(parameters, pose, twist, time) -> "
-    "Spatial` and `uses_velocity=True`, and a `ForceTerm` that holds it and its numbers.",
+    "Spatial` and `uses_velocity=True`, or without the pose `(parameters, time) -> Spatial` and `uses_pose=False`; and "
+    "a `ForceTerm` that holds it and its numbers.",
     outside="Scene(forces=[TETHER]), gym.make(..., forces=[TETHER])",
     inside=(
         Change(

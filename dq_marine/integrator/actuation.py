@@ -6,9 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.spatial import ZERO, Spatial
-from dq_marine.integrator.forces import PoseForce, VelocityForce
+from dq_marine.integrator.forces import TimeForce, VelocityForce
 
 NO_WRENCH = ZERO
 
@@ -20,7 +19,7 @@ class Actuation:
     Attributes:
         channels: how many there are.
         uses_velocity: whether the force depends on the velocity.
-        force: the pose force, or velocity force, on the body.
+        force: the force on the body, of time alone or of the velocity.
         rest: values of the channels at rest, nested.
         nest: (flat tuple) -> the same numbers nested.
         commands: (channels, actions) -> commands of actions in [-1, 1], both nested.
@@ -31,7 +30,7 @@ class Actuation:
 
     channels: int
     uses_velocity: bool
-    force: PoseForce | VelocityForce
+    force: TimeForce | VelocityForce
     rest: Any
     nest: Callable[[Any], Any]
     commands: Callable[[Any, Any], Any]
@@ -65,7 +64,7 @@ def nothing_added(effects: Any, values: Any, twist: Spatial, wrench: Spatial) ->
     return wrench
 
 
-def no_force(parameters: Any, pose: DualQuaternion, time: float) -> Spatial:
+def no_force(parameters: Any, time: float) -> Spatial:
     """Return no wrench."""
     return NO_WRENCH
 

@@ -7,8 +7,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.stages import Weights, weighted_sum
-from dq_marine.integrator.explicit import Explicit, Extent, Find, Follow, IsStable, Taken, TakeStep
+from dq_marine.algebra.stages import Weights, weighted_step, weighted_sum
+from dq_marine.integrator.explicit import Explicit, Extent, Find, Foresee, IsStable, Taken, TakeStep
+
+NODES: Weights = (0.0, 0.5, 1.0)
+"""c_1, c_2 = c_3 and c_4."""
 
 HALF: Weights = (0.5,)
 WHOLE: Weights = (1.0,)
@@ -28,16 +31,17 @@ class Telling(NamedTuple):
     first: Any
 
 
-def make_step(find: Find, follow: Follow) -> TakeStep:
+def make_step(foresee: Foresee, find: Find) -> TakeStep:
     """Return (E1): a step."""
 
-    def step(context: Any, start: Any) -> Taken:
-        k1 = find(context, 0.0, start)
-        k2 = find(context, 0.5, follow(start, weighted_sum(HALF, (k1,))))
-        k3 = find(context, 0.5, follow(start, weighted_sum(HALF, (k2,))))
-        k4 = find(context, 1.0, follow(start, weighted_sum(WHOLE, (k3,))))
+    def step(context: Any, h: float, start: Any) -> Taken:
+        early, middle, late = foresee(context, NODES)
+        k1 = find(context, early, start)
+        k2 = find(context, middle, weighted_step(start, h, HALF, (k1,)))
+        k3 = find(context, middle, weighted_step(start, h, HALF, (k2,)))
+        k4 = find(context, late, weighted_step(start, h, WHOLE, (k3,)))
         telling = Telling(weighted_sum(DIFFERENCE, (k3, k2)), weighted_sum(DIFFERENCE, (k2, k1)), k1)
-        return Taken(weighted_sum(WEIGHTS, (k1, k2, k3, k4)), telling)
+        return Taken(weighted_step(start, h, WEIGHTS, (k1, k2, k3, k4)), telling)
 
     return step
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from dq_marine.algebra.selection import some
 from dq_marine.algebra.spatial import Spatial, spatial_add_scaled
 from dq_marine.integrator.body import BodyState
-from dq_marine.integrator.forces import join_pose_forces
+from dq_marine.integrator.forces import join_posed_forces
 from dq_marine.integrator.step import (
     Advance,
     Composition,
@@ -77,7 +77,7 @@ def make_composed(composition: Composition) -> Advance:
 
     Between stages, and between steps, the half kicks that share a pose are taken together.
     """
-    add_forces = join_pose_forces(composition.pose_forces)
+    add_forces = join_posed_forces(composition.forces)
     fly = make_flight(composition)
 
     def composed(
@@ -86,7 +86,7 @@ def make_composed(composition: Composition) -> Advance:
         stages = parameters.timing.stages
         pose = state.pose
         node = time
-        force = add_forces(parameters.forces[0], pose, node, wrench)
+        force = add_forces(parameters.forces, pose, node, wrench)
         momentum = spatial_add_scaled(state.momentum, 0.5 * stages[0], force)
         progress = set_out(state)
         for step in range(steps):
@@ -99,7 +99,7 @@ def make_composed(composition: Composition) -> Advance:
                 last = stage == len(stages) - 1
                 following = 0.0 if last and step == steps - 1 else stages[0 if last else stage + 1]
                 node += stages[stage]
-                force = add_forces(parameters.forces[0], pose, node, wrench)
+                force = add_forces(parameters.forces, pose, node, wrench)
                 duration = 0.5 * (stages[stage] + following)
                 momentum = spatial_add_scaled(flown.momentum, duration, force)
             progress = progress_by_step(progress)

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from dq_marine.algebra.stages import Weights, weighted_sum
-from dq_marine.integrator.explicit import Explicit, Extent, Find, Follow, IsStable, Taken, TakeStep
+from dq_marine.algebra.stages import Weights, weighted_step, weighted_sum
+from dq_marine.integrator.explicit import Explicit, Extent, Find, Foresee, IsStable, Taken, TakeStep
 
 NODES: Weights = (
     0.0,
@@ -126,26 +126,26 @@ LARGEST_DIFFERENCE = 0.0877
 wherever it is not exceeded the method is stable, unless the real part of z is positive."""
 
 
-def make_step(find: Find, follow: Follow) -> TakeStep:
+def make_step(foresee: Foresee, find: Find) -> TakeStep:
     """Return (E1): a step."""
-    _, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11, c12 = NODES
 
-    def step(context: Any, start: Any) -> Taken:
-        k1 = find(context, 0.0, start)
-        k2 = find(context, c2, follow(start, weighted_sum(A2, (k1,))))
-        k3 = find(context, c3, follow(start, weighted_sum(A3, (k1, k2))))
-        k4 = find(context, c4, follow(start, weighted_sum(A4, (k1, k3))))
-        k5 = find(context, c5, follow(start, weighted_sum(A5, (k1, k3, k4))))
-        k6 = find(context, c6, follow(start, weighted_sum(A6, (k1, k4, k5))))
-        k7 = find(context, c7, follow(start, weighted_sum(A7, (k1, k4, k5, k6))))
-        k8 = find(context, c8, follow(start, weighted_sum(A8, (k1, k4, k5, k6, k7))))
-        k9 = find(context, c9, follow(start, weighted_sum(A9, (k1, k4, k5, k6, k7, k8))))
-        k10 = find(context, c10, follow(start, weighted_sum(A10, (k1, k4, k5, k6, k7, k8, k9))))
-        k11 = find(context, c11, follow(start, weighted_sum(A11, (k1, k4, k5, k6, k7, k8, k9, k10))))
-        k12 = find(context, c12, follow(start, weighted_sum(A12, (k1, k4, k5, k6, k7, k8, k9, k10, k11))))
+    def step(context: Any, h: float, start: Any) -> Taken:
+        s1, s2, s3, s4, s5, s6, s7, s8, s9, s10, s11, s12 = foresee(context, NODES)
+        k1 = find(context, s1, start)
+        k2 = find(context, s2, weighted_step(start, h, A2, (k1,)))
+        k3 = find(context, s3, weighted_step(start, h, A3, (k1, k2)))
+        k4 = find(context, s4, weighted_step(start, h, A4, (k1, k3)))
+        k5 = find(context, s5, weighted_step(start, h, A5, (k1, k3, k4)))
+        k6 = find(context, s6, weighted_step(start, h, A6, (k1, k4, k5)))
+        k7 = find(context, s7, weighted_step(start, h, A7, (k1, k4, k5, k6)))
+        k8 = find(context, s8, weighted_step(start, h, A8, (k1, k4, k5, k6, k7)))
+        k9 = find(context, s9, weighted_step(start, h, A9, (k1, k4, k5, k6, k7, k8)))
+        k10 = find(context, s10, weighted_step(start, h, A10, (k1, k4, k5, k6, k7, k8, k9)))
+        k11 = find(context, s11, weighted_step(start, h, A11, (k1, k4, k5, k6, k7, k8, k9, k10)))
+        k12 = find(context, s12, weighted_step(start, h, A12, (k1, k4, k5, k6, k7, k8, k9, k10, k11)))
         with_weights = (k1, k6, k7, k8, k9, k10, k11, k12)
         telling = Telling(weighted_sum(ERROR, with_weights), k1, k6)
-        return Taken(weighted_sum(WEIGHTS, with_weights), telling)
+        return Taken(weighted_step(start, h, WEIGHTS, with_weights), telling)
 
     return step
 

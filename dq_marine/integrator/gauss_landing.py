@@ -28,7 +28,8 @@ def keeps_account_of_energy(composition: Composition) -> bool:
     """
     pushed_by_water = composition.water.at_stages.forces is not as_it_is
     lacks_potentials = len(composition.potentials) < len(composition.pose_forces)
-    return not (composition.velocity_forces or lacks_potentials or pushed_by_water)
+    forces = composition.forces
+    return not (forces.of_time or forces.of_velocity or lacks_potentials or pushed_by_water)
 
 
 class Landed(NamedTuple):
@@ -69,7 +70,7 @@ def make_landing(composition: Composition) -> Land:
         work: float,
     ) -> Nearer:
         parameters, square = around.parameters, around.h * around.h
-        inertia, forces = parameters.inertia, parameters.forces[0]
+        inertia, forces = parameters.inertia, parameters.forces.of_pose
         reached = pose_renormalise(dual_multiply(pose, as_pose(increment)))
         momentum = carried(increment, pushed)
         twist = twist_from_momentum(inertia, momentum)

@@ -3,42 +3,92 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_from_parts, pose_position
 from dq_marine.algebra.selection import by_precision, smallest_normal, some, spread
-from dq_marine.algebra.spatial import Spatial, spatial_scale
-from dq_marine.algebra.vector3 import add
+from dq_marine.algebra.spatial import Spatial
+from dq_marine.algebra.stages import Weights, for_each
+from dq_marine.algebra.vector3 import Vector3, add
 from dq_marine.integrator.drift_report import DriftReport, SolverReport
-from dq_marine.integrator.explicit import Explicit
-from dq_marine.integrator.forced_stages import Place, Surroundings, follow, make_evaluate
+from dq_marine.integrator.explicit import Explicit, Foresee
+from dq_marine.integrator.forced_stages import Place, Surroundings, make_evaluate
+from dq_marine.integrator.forces import join_time_forces
 from dq_marine.integrator.gauss_forced import Steps
 from dq_marine.integrator.gauss_stages import squared_length, weighted_square
 from dq_marine.integrator.increment import unit
 from dq_marine.integrator.step import Composition, StepParameters
 
 ROUND_OFF = 1e-10
-"""Of the momentum: a change below this says nothing of a step's length."""
+"""Of the momentum: a change in a step that is below this says nothing of the step's length."""
 
 ROUND_OFF_SINGLE = 1e-4
 """`ROUND_OFF` where numbers have single precision."""
 
 
-def make_find(composition: Composition) -> Callable[[Surroundings, float, Place], Place]:
-    """Return (surroundings of the step's start, share of the step that is over, place) -> the rates there."""
-    evaluate = make_evaluate(composition)
+class Departure(NamedTuple):
+    """What the rates in a step depend on besides where the body is: see `forced_stages.Surroundings`.
 
-    def find(at_start: Surroundings, share: float, place: Place) -> Place:
-        parameters, length_squared, size, h, position, wrench, began, elapsed = at_start
-        later = elapsed + share * h
-        around = Surroundings(parameters, length_squared, size, h, position, wrench, began, later)
+    `elapsed` is the time since the start of the call, `began` [s].
+    """
+
+    parameters: StepParameters
+    length_squared: float
+    h: float
+    position: Vector3
+    wrench: Spatial
+    began: float
+    elapsed: float
+
+
+class Foreseen(NamedTuple):
+    """The time of a stage since the start of the call [s], and the wrench that depends on time alone."""
+
+    elapsed: float
+    wrench: Spatial
+
+
+def make_foresee(composition: Composition) -> Foresee:
+    """Return (departure, shares of the step that are over at the stages) -> what is foreseen of each."""
+    add_time_forces = join_time_forces(composition.time_forces)
+
+    def at_stage(share: float, departure: Departure) -> Foreseen:
+        elapsed = departure.elapsed + share * departure.h
+        numbers, time = departure.parameters.forces.of_time, departure.began + elapsed
+        return Foreseen(elapsed, add_time_forces(numbers, time, departure.wrench))
+
+    def foresee(departure: Departure, nodes: Weights) -> tuple[Foreseen, ...]:
+        return for_each(nodes, at_stage, departure)
+
+    return foresee
+
+
+def make_find(composition: Composition) -> Callable[[Departure, Foreseen, Place], Place]:
+    """Return (departure, what is foreseen of the stage, place) -> the rates there, a second."""
+    evaluate = make_evaluate(replace(composition, time_forces=()))
+
+    def find(departure: Departure, foreseen: Foreseen, place: Place) -> Place:
+        parameters, length_squared, _, position, _, began, _ = departure
+        # In steps that last 1 s momenta are those of the body, and their rates are a second's.
+        around = Surroundings(
+            parameters,
+            length_squared,
+            length_squared,
+            1.0,
+            position,
+            foreseen.wrench,
+            began,
+            foreseen.elapsed,
+        )
         return evaluate(around, place).rate
 
     return find
 
 
-def momentum_extent(length_squared: float, change: Place) -> float:
-    """Return the square of the size of a change of momentum."""
-    return weighted_square(length_squared, change.momentum)
+def momentum_extent(length_squared: float, rate: Place) -> float:
+    """Return the square of the size of the momentum's rate."""
+    return weighted_square(length_squared, rate.momentum)
 
 
 def make_forced_steps(composition: Composition, method: Explicit) -> Steps:
@@ -47,7 +97,7 @@ def make_forced_steps(composition: Composition, method: Explicit) -> Steps:
     Steps that are too long are not solved, by the report.
     """
     take_step, is_stable = (
-        method.make_step(make_find(composition), follow),
+        method.make_step(make_foresee(composition), make_find(composition)),
         method.make_is_stable(momentum_extent),
     )
     carry = composition.water.at_stages.carry
@@ -63,22 +113,21 @@ def make_forced_steps(composition: Composition, method: Explicit) -> Steps:
     ) -> tuple[DualQuaternion, Spatial, DriftReport]:
         like = momentum.linear[0]
         length_squared, position = squared_length(parameters.inertia), pose_position(pose)
-        here = Place(spatial_scale(h, momentum), pose.real, spread((0.0, 0.0, 0.0), like))
+        here = Place(momentum, pose.real, spread((0.0, 0.0, 0.0), like))
         fine = spread(True, like)
 
         for step in range(steps):
-            at_start = Surroundings(parameters, length_squared, like, h, position, wrench, time, step * h)
-            change, rates = take_step(at_start, here)
-            size = weighted_square(length_squared, here.momentum) + smallest_normal(like)
+            departure = Departure(parameters, length_squared, h, position, wrench, time, step * h)
+            reached, rates = take_step(departure, h, here)
+            size = (weighted_square(length_squared, here.momentum) + smallest_normal(like)) / (h * h)
             blur = by_precision(size, ROUND_OFF**2, ROUND_OFF_SINGLE**2) * size
             fine = fine & is_stable(length_squared, rates, blur)
             if not some(fine):
                 break
-            reached = follow(here, change)
             here = Place(reached.momentum, unit(reached.attitude), reached.way)
         after = pose_from_parts(here.attitude, add(position, here.way))
         after = carry(parameters.water, time, steps * h, after)
         report = SolverReport(spread(0.0, like), fine, 0)
-        return after, spatial_scale(1.0 / h, here.momentum), DriftReport(report, spread(True, like))
+        return after, here.momentum, DriftReport(report, spread(True, like))
 
     return forced_steps

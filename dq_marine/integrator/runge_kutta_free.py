@@ -10,8 +10,8 @@ from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_scale
 from dq_marine.integrator.drift_report import LARGEST_ENERGY_CHANGE, DriftReport, nothing_solved
-from dq_marine.integrator.explicit import Explicit
-from dq_marine.integrator.forced_stages import Place, follow, travelling, turning
+from dq_marine.integrator.explicit import Explicit, foresee_nothing
+from dq_marine.integrator.forced_stages import Place, travelling, turning
 from dq_marine.integrator.gauss_drift import FreeSteps, moved_by
 from dq_marine.integrator.gauss_forced import motion
 from dq_marine.integrator.gauss_stages import squared_length
@@ -19,7 +19,7 @@ from dq_marine.integrator.increment import AT_ONCE, consistent, unit
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 
 
-def find(inertia: Inertia, share: float, place: Place) -> Place:
+def find(inertia: Inertia, node: float, place: Place) -> Place:
     """Return the rates of momentum (G2), attitude and way (G8) at a place, at any time."""
     twist = twist_from_momentum(inertia, place.momentum)
     rate = momentum_bracket(twist, place.momentum)
@@ -33,7 +33,7 @@ def make_free_steps(method: Explicit) -> FreeSteps:
     Pose and momentum are made consistent at the end (G6). The report says whether the energy is kept, but for what as
     many drifts may change.
     """
-    take_step = method.make_step(find, follow)
+    take_step = method.make_step(foresee_nothing, find)
 
     def free_steps(
         inertia: Inertia, h: float, steps: int, pose: DualQuaternion, momentum: Spatial
@@ -43,7 +43,7 @@ def make_free_steps(method: Explicit) -> FreeSteps:
         begun = Place(start, at_once.rotation, at_once.shift)
         here = begun
         for _ in range(steps):
-            reached = follow(here, take_step(inertia, here).change)
+            reached = take_step(inertia, 1.0, here).reached
             here = Place(reached.momentum, unit(reached.attitude), reached.way)
         had, has = quadratic_form(inertia.inverse, start), quadratic_form(inertia.inverse, here.momentum)
         kept = abs(has - had) <= steps * LARGEST_ENERGY_CHANGE * had

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.integrator.drift_report import DriftReport
-from dq_marine.integrator.forces import PoseForce, VelocityForce, join_pose_forces, join_velocity_forces
+from dq_marine.integrator.forces import Forces, join_posed_forces, join_velocity_forces
 
 StageForces: TypeAlias = Callable[[Any, DualQuaternion, Spatial, float, Spatial], Spatial]
 """(the step's parameters, pose, twist, time, constant body wrench) -> all that acts on the body, in its frame."""
@@ -22,17 +22,15 @@ Step: TypeAlias = Callable[
 
 
 @functools.cache
-def join_forces(
-    pose_forces: tuple[PoseForce, ...], velocity_forces: tuple[VelocityForce, ...]
-) -> StageForces:
+def join_forces(forces: Forces) -> StageForces:
     """Return the sum of all forces and the constant wrench, on a body in still water."""
-    add_pose_forces = join_pose_forces(pose_forces)
-    add_velocity_forces = join_velocity_forces(velocity_forces)
+    add_posed_forces = join_posed_forces(forces)
+    add_velocity_forces = join_velocity_forces(forces.of_velocity)
 
     def all_forces(
         parameters: Any, pose: DualQuaternion, twist: Spatial, time: float, wrench: Spatial
     ) -> Spatial:
-        posed = add_pose_forces(parameters.forces[0], pose, time, wrench)
-        return add_velocity_forces(parameters.forces[1], pose, twist, time, posed)
+        posed = add_posed_forces(parameters.forces, pose, time, wrench)
+        return add_velocity_forces(parameters.forces.of_velocity, pose, twist, time, posed)
 
     return all_forces

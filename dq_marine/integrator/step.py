@@ -23,7 +23,7 @@ from dq_marine.integrator.contact import Contact
 from dq_marine.integrator.drift import Drift
 from dq_marine.integrator.drift_report import DriftReport, drift_accepted, equation_met
 from dq_marine.integrator.fluid_memory import NO_MEMORY, FluidMemory
-from dq_marine.integrator.forces import PoseForce, Potential, VelocityForce
+from dq_marine.integrator.forces import Forces, PoseForce, Potential, TimeForce, VelocityForce
 from dq_marine.integrator.inertia import Inertia, momentum_from_twist, twist_from_momentum
 from dq_marine.integrator.kick import Kick
 from dq_marine.integrator.staged import StageForces, join_forces
@@ -57,7 +57,8 @@ class Composition:
         fallback: the same for a step that `drift` does not solve; where the method solves its steps itself, an advance
             for those that it does not solve.
         water: what moving water does.
-        actuation: the vehicle's actuators; their force is the first of its list. None, unless a scene has them.
+        time_forces: wrenches that depend on time alone.
+        actuation: the vehicle's actuators; their force is the first of its kind. None, unless a scene has them.
         potentials: of the pose forces, if all forces of the scene have one and the method makes use of them.
         memory: that of the water.
         contact: with what is solid, if there is anything.
@@ -70,6 +71,7 @@ class Composition:
     drift: Drift
     fallback: Callable[..., Any]
     water: Water
+    time_forces: tuple[TimeForce, ...] = ()
     actuation: Actuation = NO_ACTUATION
     potentials: tuple[Potential, ...] = ()
     memory: FluidMemory = NO_MEMORY
@@ -81,15 +83,19 @@ class Composition:
         return BodyState(AT_REST.pose, ZERO, self.memory.rest)
 
     @property
+    def forces(self) -> Forces:
+        """All wrenches."""
+        return Forces(self.time_forces, self.pose_forces, self.velocity_forces)
+
+    @property
     def forceless(self) -> bool:
         """Whether nothing acts on a body but a constant wrench; damping counts where it is a velocity force."""
-        forces = self.pose_forces or self.velocity_forces
-        return not forces and self.water.at_stages.forces is as_it_is
+        return not any(self.forces) and self.water.at_stages.forces is as_it_is
 
     @property
     def stage_forces(self) -> StageForces:
         """All that acts on a body at a stage; damping counts where it is a velocity force."""
-        return self.water.at_stages.forces(join_forces(self.pose_forces, self.velocity_forces))
+        return self.water.at_stages.forces(join_forces(self.forces))
 
 
 class StepParameters(NamedTuple):
@@ -98,8 +104,7 @@ class StepParameters(NamedTuple):
     Attributes:
         inertia: M and its inverses.
         damping: what the composition's kick needs to know for any duration.
-        forces: the parameters of the composition's pose forces and of its velocity forces, as a pair, each nested in
-            pairs (first, (second, (..., ()))).
+        forces: the parameters of the composition's forces.
         water: parameters of `Composition.water`.
         timing: what depends on the step size, as the method wants it.
         contact: parameters of `Composition.contact`.
@@ -107,7 +112,7 @@ class StepParameters(NamedTuple):
 
     inertia: Inertia
     damping: Any
-    forces: Any
+    forces: Forces
     water: Any
     timing: Any
     contact: Any

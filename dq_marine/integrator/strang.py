@@ -40,7 +40,7 @@ def make_strang(composition: Composition) -> Advance:
     The closing half kick of a step and the opening one of the next share a pose and are taken as one full kick. The
     fluid memory, where there is one, flows for half a step before the drift and for half a step after it.
     """
-    kick = make_forced_kick(composition.kick, composition.pose_forces, composition.velocity_forces)
+    kick = make_forced_kick(composition.kick, composition.forces)
     fly, remember = make_flight(composition), composition.memory.flow
 
     def strang(

@@ -25,7 +25,7 @@ from dq_marine.integrator.step import (
 
 def make_touching(composition: Composition) -> Advance:
     """Return the advance of Strang's method with contact: half kick and touch, drift, half kick and touch."""
-    kick = make_forced_kick(composition.kick, composition.pose_forces, composition.velocity_forces)
+    kick = make_forced_kick(composition.kick, composition.forces)
     fly, remember = make_flight(composition), composition.memory.flow
     assert composition.contact is not None  # noqa: S101 - told to the type checker: chosen for scenes with solids
     touch = composition.contact(composition.water.twist)

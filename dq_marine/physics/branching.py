@@ -8,7 +8,7 @@ from typing import Any
 from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.selection import select_call, spread
 from dq_marine.algebra.spatial import ZERO, Spatial
-from dq_marine.integrator.forces import PoseForce, VelocityForce
+from dq_marine.integrator.forces import PoseForce, TimeForce, VelocityForce
 
 
 @functools.cache
@@ -18,6 +18,17 @@ def branching_pose_force(force: PoseForce) -> PoseForce:
     def pose_force(parameters: Any, pose: DualQuaternion, time: float) -> Spatial:
         like = pose.real[0]
         return select_call(spread(True, like), force, (parameters, pose, time), spread(ZERO, like))
+
+    return pose_force
+
+
+@functools.cache
+def branching_time_force(force: TimeForce) -> PoseForce:
+    """Return the same of a force that depends on time alone."""
+
+    def pose_force(parameters: Any, pose: DualQuaternion, time: float) -> Spatial:
+        like = pose.real[0]
+        return select_call(spread(True, like), force, (parameters, time), spread(ZERO, like))
 
     return pose_force
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from dq_marine.algebra.dual_quaternion import pose_from_parts
+from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_from_parts
 from dq_marine.algebra.nesting import nested
 from dq_marine.algebra.spatial import ZERO, Spatial
 from dq_marine.checks import shown
 from dq_marine.errors import InvalidInputError
 from dq_marine.integrator.water import Water
-from dq_marine.physics.branching import branching_pose_force, branching_velocity_force
+from dq_marine.physics.branching import branching_pose_force, branching_time_force, branching_velocity_force
 
 
 class ForceTerm(NamedTuple):
@@ -21,9 +21,10 @@ class ForceTerm(NamedTuple):
 
     Attributes:
         name: what it is called.
-        function: a plain function, compiled with the step, `(parameters, pose, time) -> Spatial`, or with
-            `uses_velocity` `(parameters, pose, twist, time) -> Spatial`; see `dq_marine.integrator.forces`. It is
-            found by its names: functions that it calls are imported by name, not through their module.
+        function: a plain function, compiled with the step, `(parameters, pose, time) -> Spatial`, with
+            `uses_velocity` `(parameters, pose, twist, time) -> Spatial`, and with `uses_pose=False`
+            `(parameters, time) -> Spatial`; see `dq_marine.integrator.forces`. It is found by its names: functions that
+            it calls are imported by name, not through their module.
         parameters: nested tuples of floats, handed to the function.
         uses_velocity: whether it depends on the velocity.
         branches: whether the function asks `if`, `and`, `or`, `not`, `min` or `max` of a number that is a body's own. A
@@ -31,6 +32,8 @@ class ForceTerm(NamedTuple):
             what lanes can do instead.
         potential: of a force that has one, `(parameters, pose) -> energy` [J], whose negative gradient the force is.
             Gauss's collocation then keeps the energy exactly.
+        uses_pose: whether it depends on the pose. What depends on time alone, as a thrust that was planned does, is
+            evaluated at all stages of an explicit step at once, which takes less time.
     """
 
     name: str
@@ -39,13 +42,29 @@ class ForceTerm(NamedTuple):
     uses_velocity: bool = False
     branches: bool = False
     potential: Callable[..., float] | None = None
+    uses_pose: bool = True
+
+    @property
+    def kind(self) -> Literal["time", "pose", "velocity"]:
+        """As what the step takes it: see `integrator.forces`."""
+        if self.uses_velocity:
+            return "velocity"
+        return "pose" if self.uses_pose or self.branches else "time"
 
     @property
     def compiled_form(self) -> Callable[..., Spatial]:
         """The function as the step has it."""
         if not self.branches:
             return self.function
-        return (branching_velocity_force if self.uses_velocity else branching_pose_force)(self.function)
+        if self.uses_velocity:
+            return branching_velocity_force(self.function)
+        return (branching_pose_force if self.uses_pose else branching_time_force)(self.function)
+
+    def wrench_at(self, pose: DualQuaternion, twist: Spatial, time: float) -> Spatial:
+        """Return what the force is somewhere."""
+        if self.uses_velocity:
+            return self.function(self.parameters, pose, twist, time)
+        return self.function(self.parameters, *((pose, time) if self.uses_pose else (time,)))
 
 
 def nested_parameters(terms: tuple[ForceTerm, ...]) -> Any:
@@ -88,15 +107,20 @@ def checked_force(force: ForceTerm) -> ForceTerm:
         raise InvalidInputError(
             f"forces has {shown(force)}; give dq_marine.physics.term.ForceTerm(name, function, parameters)"
         )
+    if force.uses_velocity and not force.uses_pose:
+        raise InvalidInputError(
+            f"force {force.name!r} has uses_velocity=True and uses_pose=False; a function of the velocity takes the "
+            "pose, too: leave uses_pose out"
+        )
     pose = pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    arguments = (pose, ZERO, 0.0) if force.uses_velocity else (pose, 0.0)
     try:
-        wrench = force.function(force.parameters, *arguments)
+        wrench = force.wrench_at(pose, ZERO, 0.0)
         finite = bool(np.isfinite([*wrench.angular, *wrench.linear]).all())
     except Exception as error:
+        takes = ["parameters", "pose"][: 1 + force.uses_pose] + ["twist"] * force.uses_velocity + ["time"]
         raise InvalidInputError(
             f"force {force.name!r} cannot be evaluated at rest: {type(error).__name__}: {error}; its function takes "
-            f"(parameters, pose, {'twist, ' if force.uses_velocity else ''}time) and returns Spatial(moment, force)"
+            f"({', '.join(takes)}) and returns Spatial(moment, force)"
         ) from error
     if not finite:
         raise InvalidInputError(f"force {force.name!r} gives {wrench} at rest; it must be finite")

@@ -25,7 +25,7 @@ class Oscillation(NamedTuple):
     cosine: Spatial
 
 
-def oscillation(term: Oscillation, pose: DualQuaternion, time: float) -> Spatial:
+def oscillation(term: Oscillation, time: float) -> Spatial:
     """Return sine sin(w t) + cosine cos(w t)."""
     sine, cosine = sine_and_cosine(term.frequency * time)
     return spatial_add_scaled(spatial_scale(sine, term.sine), cosine, term.cosine)

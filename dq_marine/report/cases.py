@@ -182,6 +182,7 @@ THRUST = ForceTerm(
         from_fossen((40.0, 10.0, 20.0, 0.6, -0.3, 1.0)),
         from_fossen((0.0, 30.0, -25.0, -0.4, 0.5, 1.0)),
     ),
+    uses_pose=False,
 )
 """What drives the damped BlueROV2: some 40 N and 1 N m, at 1.5 rad/s, with a phase for each axis."""
 

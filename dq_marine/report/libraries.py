@@ -21,7 +21,7 @@ from dq_marine.backend.compilation import compile_function
 from dq_marine.backend.packing import make_load, pack, store, structure_type
 from dq_marine.integrator.inertia import momentum_from_twist, twist_from_momentum
 from dq_marine.integrator.step import Composition, StepParameters
-from dq_marine.report.baselines.dynamics import Point
+from dq_marine.report.baselines.dynamics import Point, make_foresee
 from dq_marine.report.baselines.rk4_quaternion import make_rates, make_rk4_quaternion
 from dq_marine.report.cases import Case
 from dq_marine.report.end_state import EndState
@@ -120,7 +120,7 @@ def make_compiled_derivative(case: Case) -> Callable[[float, Array], Array]:
 
 def compiled_rates(composition: Composition, layout: Any) -> Callable[..., None]:
     """Return (numbers, t, y, wrench, out), which writes y' to `out`; `numbers` are packed parameters of the layout."""
-    rates_at = make_rates(composition)
+    rates_at, foresee = make_rates(composition), make_foresee(composition)
     load_parameters = make_load(layout)
 
     def write_rates(numbers: Any, at: float, y: Any, wrench: Any, out: Any) -> None:
@@ -129,7 +129,8 @@ def compiled_rates(composition: Composition, layout: Any) -> Callable[..., None]
         twist = from_fossen((y[7], y[8], y[9], y[10], y[11], y[12]))
         attitude = (y[3], y[4], y[5], y[6])
         point = Point(attitude, (y[0], y[1], y[2]), momentum_from_twist(parameters.inertia, twist))
-        rates = rates_at(parameters, point, 0.0, at, force)
+        (now,) = foresee(parameters, 0.0, at, force, (0.0,))
+        rates = rates_at(parameters, point, 0.0, now)
         acceleration = twist_from_momentum(parameters.inertia, rates.momentum)
         store(out, (rates.position, rates.attitude, acceleration.linear, acceleration.angular))
 

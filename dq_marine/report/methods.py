@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
 from dq_marine.integrator.step import Advance, Composition, StepParameters
 from dq_marine.physics.damping.build import DampingTerm
-from dq_marine.physics.damping.formulas.diagonal import DiagonalDamping, FullDamping
-from dq_marine.physics.term import ForceTerm
 from dq_marine.report.baselines.decoupled_lie import make_decoupled_lie
 from dq_marine.report.baselines.dop853 import make_dop853
-from dq_marine.report.baselines.drag import diagonal_drag, full_drag, linear_diagonal_drag, linear_full_drag
 from dq_marine.report.baselines.dynamics import StepSize
 from dq_marine.report.baselines.explicit_euler import make_explicit_euler
 from dq_marine.report.baselines.rk4_euler import make_rk4_euler
@@ -91,26 +88,14 @@ def compose_baseline(
 
 def explicit_assembly(physics: Physics) -> Assembly:
     """Return the physics with its damping as a force that depends on the velocity."""
+    damping = DampingTerm(physics.linear, physics.quadratic, physics.mass_matrix)
     undamped = replace(
         physics,
-        forces=(*physics.forces, *drag_terms(physics)),
+        forces=(*physics.forces, *damping.drag),
         linear=np.zeros((6, 6)),
         quadratic=np.zeros(6),
     )
     return undamped.assembly()
-
-
-def drag_terms(physics: Physics) -> tuple[ForceTerm, ...]:
-    """Return the damping as the cheapest force that has all of it; none without damping."""
-    matrices = DampingTerm(physics.linear, physics.quadratic, physics.mass_matrix, l_stable=False).matrices
-    grows = bool(physics.quadratic.any())
-    if isinstance(matrices, DiagonalDamping):
-        function: Callable[..., Any] = diagonal_drag if grows else linear_diagonal_drag
-    elif isinstance(matrices, FullDamping):
-        function = full_drag if grows else linear_full_drag
-    else:
-        return ()
-    return (ForceTerm("drag", function, matrices if grows else matrices.linear, uses_velocity=True),)
 
 
 def nothing(physics: Physics) -> str:

@@ -114,8 +114,7 @@ def make_other_forces(physics: Physics) -> Callable[[float, Array], Array]:
         twist = Spatial(tuple(y[10:].tolist()), tuple(y[7:10].tolist()))
         total = np.zeros(6)
         for force in physics.forces:
-            arguments = (pose, twist, time) if force.uses_velocity else (pose, time)
-            wrench = force.function(force.parameters, *arguments)
+            wrench = force.wrench_at(pose, twist, time)
             total += np.array([*wrench.linear, *wrench.angular])
         return total
 

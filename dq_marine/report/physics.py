@@ -59,5 +59,5 @@ class Physics:
             "linear": self.linear.tolist(),
             "quadratic": self.quadratic.tolist(),
             "current_ned": self.current_ned.tolist(),
-            "forces": [[force.name, force.parameters, force.uses_velocity] for force in self.forces],
+            "forces": [[force.name, force.parameters, force.kind] for force in self.forces],
         }

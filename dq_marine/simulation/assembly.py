@@ -16,7 +16,7 @@ from dq_marine.integrator.actuation import NO_ACTUATION
 from dq_marine.integrator.composed import STAGES, ComposedTiming, make_composed
 from dq_marine.integrator.extrapolated import ExtrapolatedTiming, make_extrapolated
 from dq_marine.integrator.fluid_memory import NO_MEMORY
-from dq_marine.integrator.forces import Potential
+from dq_marine.integrator.forces import Forces, Potential
 from dq_marine.integrator.kick import Kick
 from dq_marine.integrator.midpoint_drift import midpoint_drift, midpoint_fallback
 from dq_marine.integrator.paper_drift import paper_drift, paper_fallback
@@ -174,6 +174,7 @@ class Assembly:
             fallback=fallback,
             water=self.water.water,
             actuation=NO_ACTUATION if self.actuators is None else self.actuators.actuation,
+            time_forces=compiled_forms(self._time_forces(0.0)),
             memory=NO_MEMORY if self.memory is None else self.memory.memory,
             contact=self.contact.contact,
         )
@@ -183,7 +184,8 @@ class Assembly:
         return StepParameters(
             inertia=inertia_term(self.mass_matrix),
             damping=self.damping.matrices,
-            forces=(
+            forces=Forces(
+                nested_parameters(self._time_forces(step)),
                 nested_parameters(self._pose_forces(step)),
                 nested_parameters((*self._velocity_forces(step), *self._drag)),
             ),
@@ -209,11 +211,14 @@ class Assembly:
         """Return all forces; the actuators' first, where `physics.actuators.formulas.stepping` finds it."""
         return self.forces if self.actuators is None else (self.actuators.force_at(step), *self.forces)
 
+    def _time_forces(self, step: float) -> tuple[ForceTerm, ...]:
+        return tuple(force for force in self._present(step) if force.kind == "time")
+
     def _pose_forces(self, step: float) -> tuple[ForceTerm, ...]:
-        return tuple(force for force in self._present(step) if not force.uses_velocity)
+        return tuple(force for force in self._present(step) if force.kind == "pose")
 
     def _velocity_forces(self, step: float) -> tuple[ForceTerm, ...]:
-        return tuple(force for force in self._present(step) if force.uses_velocity)
+        return tuple(force for force in self._present(step) if force.kind == "velocity")
 
     @property
     def _potentials(self) -> tuple[Potential, ...]:

@@ -89,7 +89,7 @@ def fallback_timing(damping: DampingTerm, step: float) -> FallbackTiming:
 def gauss_timing(damping: DampingTerm, step: float) -> FallbackTiming | DampedTiming:
     """Return the timing of the same."""
     if damping.names:
-        return DampedTiming(step, damping.drag[0].parameters, damping.timing(step))
+        return DampedTiming(step, damping.stage_matrices, damping.timing(step))
     return fallback_timing(damping, step)
 
 

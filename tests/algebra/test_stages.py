@@ -17,6 +17,7 @@ from dq_marine.algebra.stages import (
     stage_sum,
     stages_apart,
     stages_together,
+    weighted_step,
     weighted_sum,
 )
 from dq_marine.backend.compilation import compile_function
@@ -56,7 +57,8 @@ def make_exercise(count):
             y = each_stage(weights, spatial_add, (a, stage_product(matrix, k)))
         apart = stages_apart(weights, y)
         y = each_stage(weights, spatial_add, (y, stages_together(apart)))
-        return spatial_add(stage_sum(weights, y), weighted_sum(weights, apart))
+        reached = weighted_step(a, 0.3 * strength, weights, apart)
+        return spatial_add(spatial_add(stage_sum(weights, y), weighted_sum(weights, apart)), reached)
 
     return exercise
 

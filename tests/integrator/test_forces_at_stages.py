@@ -1,5 +1,7 @@
 """Collocation under one force at a time: its order, whatever acts on the body."""
 
+import math
+
 import numpy as np
 import pytest
 from support.bodies import PlainBody
@@ -32,6 +34,12 @@ def tether(parameters, pose, time):
     return Spatial((0.0, 0.0, 0.0), rotate_inverse(pose.real, pull))
 
 
+def swell(parameters, time):
+    """A force that comes and goes along an axis of the body, and a moment that begins with it."""
+    force = parameters[0] * math.sin(parameters[1] * time)
+    return Spatial((0.1 * force, 0.0, 0.05 * force), (0.0, force, 0.5 * force))
+
+
 LAYER = CurrentProfile([0.0, 9.0], [[0.9, -0.2], [-0.6, 0.4]])
 """One that the body does not leave: at the corners of a profile no method keeps an order above two."""
 
@@ -41,6 +49,10 @@ FORCES = {
     "a current that varies with depth": ("bluerov2_heavy", {"current": LAYER}),
     "waves on a submerged body": ("bluerov2_heavy", {"weather": [Sea(Jonswap(1.0, 6.0), components=3)]}),
     "a force of one's own": ("bluerov2_heavy", {"forces": [ForceTerm("tether", tether, (5.0,))]}),
+    "a force of time alone": (
+        "bluerov2_heavy",
+        {"forces": [ForceTerm("swell", swell, (9.0, 1.3), uses_pose=False)]},
+    ),
     "thrusters with lags": ("bluerov2_heavy", {"actuation": "thrusters"}),
     "a waterplane": ("otter", {}),
     "a hull of boxes": ("otter", {"hydrostatics": "hull"}),
@@ -56,6 +68,7 @@ OFTEN = (
     "waves on a submerged body",
     "a waterplane",
     "a force of one's own",
+    "a force of time alone",
 )
 PLAIN = [*(("gauss", 8, name) for name in OFTEN), ("galerkin", 6, "gusts"), ("runge_kutta", 8, "a current")]
 

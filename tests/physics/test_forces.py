@@ -8,6 +8,7 @@ import pytest
 from support.bodies import PlainBody, make_body, random_damping, random_inertia
 from support.fossen import errors, solve
 from support.order import observed_order
+from support.sweeps import sweep
 
 from dq_marine.algebra.dual_quaternion import pose_position
 from dq_marine.algebra.quaternion import rotate_inverse, world_down_in_body
@@ -97,6 +98,47 @@ def test_a_force_may_depend_on_time(order, pieces):
     assert observed_order(steps, measured) == pytest.approx(order, abs=0.2)
 
 
+def swell(parameters, time):
+    return Spatial(
+        (0.0, 0.0, 0.1 * math.sin(time)),
+        (parameters.amplitude * math.cos(parameters.frequency * time), 0.0, 0.0),
+    )
+
+
+def swell_anywhere(parameters, pose, time):
+    return swell(parameters, time)
+
+
+SCHEMES = [
+    ("midpoint", 2),
+    ("midpoint", 4),
+    ("gauss", 8),
+    ("galerkin", 6),
+    ("runge_kutta", 4),
+    ("runge_kutta", 8),
+]
+
+
+@pytest.mark.parametrize(("scheme", "order"), sweep(SCHEMES, plain=[("midpoint", 2), ("runge_kutta", 8)]))
+@pytest.mark.parametrize("branches", [False, True])
+def test_a_force_of_time_alone_is_one_of_the_pose_that_does_not_ask_for_it(scheme, order, branches):
+    """Alone or in lanes, with all its stages computed side by side or not; time goes on from call to call."""
+    parameters, ends = Wave(3.0, 2.0), []
+    for force in (
+        ForceTerm("swell", swell, parameters, branches=branches, uses_pose=False),
+        ForceTerm("swell", swell_anywhere, parameters),
+    ):
+        scene = Scene(step=0.1, scheme=scheme, order=order, forces=[force])
+        body, batch = scene.stepper(), scene.batch(3)
+        for some in (body, batch):
+            some.reset(velocity_body=(0.4, -0.2, 0.1, 0.1, 0.2, -0.3))
+            for _ in range(3):
+                some.step(steps=4)
+        assert np.array_equal(batch.get_state()[1], body.get_state())
+        ends.append(body.get_state())
+    np.testing.assert_allclose(*ends, rtol=0.0, atol=1e-12)
+
+
 @pytest.mark.parametrize(("order", "tolerance"), [(2, 0.05), (4, 0.15)])
 def test_a_force_may_depend_on_velocity(order, tolerance):
     rng = np.random.default_rng(4)
@@ -167,6 +209,8 @@ def infinite(parameters, pose, time):
         (lambda: 1.0, "ForceTerm"),
         (ForceTerm("drag", drag, (1.0,)), r"drag.*takes \(parameters, pose, time\)"),
         (ForceTerm("weight", weight, (1.0,), uses_velocity=True), r"weight.*twist, time"),
+        (ForceTerm("wave", wave, Wave(3.0, 2.0), uses_pose=False), r"wave.*takes \(parameters, time\)"),
+        (ForceTerm("drag", drag, (1.0,), uses_velocity=True, uses_pose=False), "leave uses_pose out"),
         (ForceTerm("flat", no_spatial, ()), r"flat.*Spatial"),
         (ForceTerm("huge", infinite, ()), r"huge.*finite"),
     ],

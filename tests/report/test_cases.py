@@ -95,8 +95,7 @@ def test_the_remus_has_the_growth_rate_that_its_note_states():
 
 def test_the_thrust_oscillates_on_all_axes():
     times = np.linspace(0.0, 2.0 * np.pi / 1.5, 50)
-    pose = pose_from_parts((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    wrenches = [THRUST.function(THRUST.parameters, pose, time) for time in times]
+    wrenches = [THRUST.function(THRUST.parameters, time) for time in times]
     table = np.array([[*wrench.linear, *wrench.angular] for wrench in wrenches])
     assert np.abs(table.mean(axis=0)).max() < 0.03 * np.abs(table).max()
     assert np.ptp(table, axis=0).min() > 1.0

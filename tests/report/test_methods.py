@@ -9,11 +9,11 @@ from dq_marine.algebra.spatial import from_fossen
 from dq_marine.backend.packing import pack
 from dq_marine.integrator.classical_runge_kutta import CLASSICAL
 from dq_marine.integrator.dormand_prince import DORMAND_PRINCE
+from dq_marine.integrator.explicit import foresee_nothing
 from dq_marine.integrator.step import ACCEPTED, make_advance
 from dq_marine.report.cases import CASES
 from dq_marine.report.end_state import end_of, errors
-from dq_marine.report.methods import METHODS, drag_terms
-from dq_marine.report.physics import Physics
+from dq_marine.report.methods import METHODS
 from dq_marine.report.references import reference
 from dq_marine.report.showing.stability_view import DOP853_IMAGINARY, DOP853_REAL, RK4_IMAGINARY, RK4_REAL
 from dq_marine.simulation.batch import Batch
@@ -104,29 +104,6 @@ def test_a_baseline_runs_compiled_like_the_products_own():
     assert errors(end_of(body), reference(case).end).attitude < 1e-6
 
 
-FULL = np.eye(6) + 0.1 * np.ones((6, 6))
-
-
-@pytest.mark.parametrize(
-    ("linear", "quadratic", "expected"),
-    [
-        (np.zeros((6, 6)), np.zeros(6), []),
-        (np.eye(6), np.zeros(6), ["linear_diagonal_drag"]),
-        (np.zeros((6, 6)), np.ones(6), ["diagonal_drag"]),
-        (FULL, np.zeros(6), ["linear_full_drag"]),
-        (FULL, np.ones(6), ["full_drag"]),
-    ],
-)
-def test_the_drag_is_the_cheapest_that_has_all_damping(linear, quadratic, expected):
-    terms = drag_terms(Physics(np.eye(6), linear=linear, quadratic=quadratic))
-    assert [term.function.__name__ for term in terms] == expected
-    twist = from_fossen((1.0, -2.0, 0.5, 0.3, -0.4, 2.0))
-    nu = np.array([1.0, -2.0, 0.5, 0.3, -0.4, 2.0])
-    for term in terms:
-        force = term.function(term.parameters, None, twist, 0.0)
-        assert np.allclose([*force.linear, *force.angular], -linear @ nu - quadratic * np.abs(nu) * nu)
-
-
 @pytest.mark.sweep
 def test_rk4_in_lanes_has_the_bits_of_a_single_body():
     """So that it can be compared with what a batch does."""
@@ -148,7 +125,7 @@ def test_rk4_in_lanes_has_the_bits_of_a_single_body():
 )
 def test_stability_ends_where_the_report_says(method, real, imaginary):
     """Of y' = z y: a step makes y no larger just within the bounds, and larger just beyond."""
-    take_step = method.make_step(lambda z, share, y: z * y, lambda y, change: y + change)
+    take_step = method.make_step(foresee_nothing, lambda z, node, y: z * y)
     for end in (-real, 1j * imaginary):
-        assert abs(1.0 + take_step(complex(0.9999 * end), 1.0).change) < 1.0
-        assert abs(1.0 + take_step(complex(1.0001 * end), 1.0).change) > 1.0
+        assert abs(take_step(complex(0.9999 * end), 1.0, 1.0).reached) < 1.0
+        assert abs(take_step(complex(1.0001 * end), 1.0, 1.0).reached) > 1.0

@@ -80,7 +80,8 @@ class ActuationTerm(NamedTuple):
         """Return the force for a step size [s], with the actuators at rest."""
         rest = self.actuation.rest
         numbers = Actuators(self.channels, self.effects, step, Transient(rest, rest, 0.0))
-        return ForceTerm(NAME, self.actuation.force, numbers, uses_velocity=self.actuation.uses_velocity)
+        moving = self.actuation.uses_velocity
+        return ForceTerm(NAME, self.actuation.force, numbers, uses_velocity=moving, uses_pose=moving)
 
 
 def actuation_term(vehicle: Vehicle) -> ActuationTerm:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -35,7 +35,7 @@ from dq_marine.physics.damping.formulas.coupled import (
 )
 from dq_marine.physics.damping.formulas.cross_flow import StripRow
 from dq_marine.physics.damping.formulas.diagonal import DIAGONAL, FULL, DiagonalDamping, FullDamping
-from dq_marine.physics.damping.formulas.drag import make_drag
+from dq_marine.physics.damping.formulas.drag import make_drag, make_linear_drag
 from dq_marine.physics.matrices import Array, angular_first, matrix6, spatial
 from dq_marine.physics.term import ForceTerm
 
@@ -163,8 +163,15 @@ class DampingTerm(NamedTuple):
         """The same damping as a force; none without damping."""
         if not self.names:
             return ()
-        matrices = self._replace(l_stable=False).matrices
-        return (ForceTerm(self.names[0], make_drag(self.algebra), matrices, uses_velocity=True),)
+        name, matrices = self.names[0], self.stage_matrices
+        if self.grows:
+            return (ForceTerm(name, make_drag(self.algebra), matrices, uses_velocity=True),)
+        return (ForceTerm(name, make_linear_drag(self.algebra), matrices.linear, uses_velocity=True),)
+
+    @property
+    def stage_matrices(self) -> Any:
+        """What methods need to know of the damping that solve their stages: matrices for any duration."""
+        return self._replace(l_stable=False).matrices
 
     @property
     def grows(self) -> bool:

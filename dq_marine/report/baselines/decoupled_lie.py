@@ -141,7 +141,7 @@ def make_decoupled_lie(composition: Composition) -> Advance:
     One evaluation of the pose forces a step, and two of the velocity forces; the kicks between two steps are taken
     together.
     """
-    kick = make_forced_kick(undamped_kick, composition.pose_forces, composition.velocity_forces)
+    kick = make_forced_kick(undamped_kick, composition.forces)
     carry = composition.water.at_stages.carry
     land = make_landing(composition)
 

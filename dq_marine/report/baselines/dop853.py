@@ -6,18 +6,18 @@ step, nothing else is. It is the strongest explicit method that is in common use
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import pose_position
 from dq_marine.algebra.spatial import Spatial
-from dq_marine.algebra.stages import weighted_sum
+from dq_marine.algebra.stages import Weights
 from dq_marine.integrator.body import BodyState
 from dq_marine.integrator.dormand_prince import DORMAND_PRINCE
+from dq_marine.integrator.explicit import Find, Foresee
 from dq_marine.integrator.step import Advance, Composition, StepOutcome, StepParameters
-from dq_marine.report.baselines.dynamics import Point, make_landing
+from dq_marine.report.baselines.dynamics import Foreseen, Point, make_foresee, make_landing
 from dq_marine.report.baselines.normalisation import normalised
-from dq_marine.report.baselines.rk4_quaternion import Rates, make_rates, moved
+from dq_marine.report.baselines.rk4_quaternion import Rates, make_rates
 
 
 class Step(NamedTuple):
@@ -29,27 +29,22 @@ class Step(NamedTuple):
     wrench: Spatial
 
 
-def follow(point: Point, change: Rates) -> Point:
-    """Return point + change."""
-    return moved(point, 1.0, change)
+def make_stages(composition: Composition) -> tuple[Foresee, Find]:
+    """Return (step, shares of it that are over) -> what is foreseen, and (step, that, point) -> the rates there."""
+    rates_at, foresee = make_rates(composition), make_foresee(composition)
 
+    def foresee_step(step: Step, nodes: Weights) -> tuple[Foreseen, ...]:
+        return foresee(step.parameters, step.time, step.elapsed, step.wrench, nodes)
 
-def make_find(composition: Composition) -> Callable[[Step, float, Point], Rates]:
-    """Return (step, share of it that is over, point) -> the rates there, times h."""
-    rates_at = make_rates(composition)
+    def find(step: Step, foreseen: Foreseen, point: Point) -> Rates:
+        return rates_at(step.parameters, point, step.time, foreseen)
 
-    def find(step: Step, share: float, point: Point) -> Rates:
-        h = step.parameters.timing.h
-        there = rates_at(step.parameters, point, step.time, step.elapsed + share * h, step.wrench)
-        scaled: Rates = weighted_sum((h,), (there,))
-        return scaled
-
-    return find
+    return foresee_step, find
 
 
 def make_dop853(composition: Composition) -> Advance:
     """Return the advance: twelve evaluations of all forces a step."""
-    take_step = DORMAND_PRINCE.make_step(make_find(composition), follow)
+    take_step = DORMAND_PRINCE.make_step(*make_stages(composition))
     land = make_landing(composition)
 
     def dop853(
@@ -58,7 +53,7 @@ def make_dop853(composition: Composition) -> Advance:
         h = parameters.timing.h
         point = Point(state.pose.real, pose_position(state.pose), state.momentum)
         for step in range(steps):
-            reached = follow(point, take_step(Step(parameters, time, step * h, wrench), point).change)
+            reached = take_step(Step(parameters, time, step * h, wrench), h, point).reached
             point = Point(normalised(reached.attitude), reached.position, reached.momentum)
         return land(parameters, state, point, time, steps, 0)
 

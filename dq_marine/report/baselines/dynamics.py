@@ -13,14 +13,17 @@ as it is for the product's own steps: the position is that in the frame which dr
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple, TypeAlias
 
 from dq_marine.algebra.dual_quaternion import pose_from_parts
 from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.quaternion import Quaternion
 from dq_marine.algebra.spatial import Spatial, spatial_add
+from dq_marine.algebra.stages import Weights, for_each
 from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.forces import join_time_forces
 from dq_marine.integrator.inertia import twist_from_momentum
 from dq_marine.integrator.step import (
     Composition,
@@ -50,6 +53,13 @@ class Point(NamedTuple):
     attitude: Quaternion
     position: Vector3
     momentum: Spatial
+
+
+class Foreseen(NamedTuple):
+    """The time of a stage since the start of the call [s], and the wrench that depends on time alone."""
+
+    elapsed: float
+    wrench: Spatial
 
 
 Wrench: TypeAlias = Callable[[StepParameters, Point, Spatial, float, float, Spatial], Spatial]
@@ -94,6 +104,34 @@ def make_momentum_rate(composition: Composition) -> MomentumRate:
         return spatial_add(momentum_bracket(twist, point.momentum), force)
 
     return momentum_rate
+
+
+def without_time_forces(composition: Composition) -> Composition:
+    """Return the composition less the forces that depend on time alone."""
+    return replace(composition, time_forces=())
+
+
+def make_foresee(
+    composition: Composition,
+) -> Callable[[StepParameters, float, float, Spatial, Weights], tuple[Foreseen, ...]]:
+    """Return (parameters, start, elapsed, wrench, shares of the step at the stages) -> what is foreseen of each.
+
+    Methods of several stages have the forces that depend on time alone computed for all stages side by side, as the
+    product's own explicit methods have; the rest is as in `make_wrench`.
+    """
+    add_time_forces = join_time_forces(composition.time_forces)
+
+    def at_stage(share: float, step: tuple[StepParameters, float, float, Spatial]) -> Foreseen:
+        parameters, start, elapsed, wrench = step
+        then = elapsed + share * parameters.timing.h
+        return Foreseen(then, add_time_forces(parameters.forces.of_time, start + then, wrench))
+
+    def foresee(
+        parameters: StepParameters, start: float, elapsed: float, wrench: Spatial, nodes: Weights
+    ) -> tuple[Foreseen, ...]:
+        return for_each(nodes, at_stage, (parameters, start, elapsed, wrench))
+
+    return foresee
 
 
 def twist_at(parameters: StepParameters, point: Point) -> Spatial:

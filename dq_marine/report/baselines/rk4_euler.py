@@ -19,8 +19,17 @@ from dq_marine.algebra.quaternion import Quaternion, rotate
 from dq_marine.algebra.spatial import Spatial, spatial_add, spatial_add_scaled, spatial_scale
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, scale
 from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.classical_runge_kutta import NODES
 from dq_marine.integrator.step import Advance, Composition, StepOutcome, StepParameters
-from dq_marine.report.baselines.dynamics import Point, make_landing, make_momentum_rate, twist_at
+from dq_marine.report.baselines.dynamics import (
+    Foreseen,
+    Point,
+    make_foresee,
+    make_landing,
+    make_momentum_rate,
+    twist_at,
+    without_time_forces,
+)
 
 
 class Posture(NamedTuple):
@@ -103,19 +112,17 @@ def weighted(k1: Posture, k2: Posture, k3: Posture, k4: Posture) -> Posture:
 
 def make_rk4_euler(composition: Composition) -> Advance:
     """Return the advance of RK4 on Euler angles: four evaluations of all forces a step."""
-    momentum_rate = make_momentum_rate(composition)
-    land = make_landing(composition)
+    momentum_rate = make_momentum_rate(without_time_forces(composition))
+    foresee, land = make_foresee(composition), make_landing(composition)
 
-    def rates_at(
-        parameters: StepParameters, posture: Posture, start: float, elapsed: float, wrench: Spatial
-    ) -> Posture:
+    def rates_at(parameters: StepParameters, posture: Posture, start: float, foreseen: Foreseen) -> Posture:
         half = halves(posture.angles)
         point = Point(attitude_of(half), posture.position, posture.momentum)
         twist = twist_at(parameters, point)
         return Posture(
             angle_rates(half, twist.angular),
             rotate(point.attitude, twist.linear),
-            momentum_rate(parameters, point, twist, start, elapsed, wrench),
+            momentum_rate(parameters, point, twist, start, foreseen.elapsed, foreseen.wrench),
         )
 
     def rk4_euler(
@@ -125,11 +132,11 @@ def make_rk4_euler(composition: Composition) -> Advance:
         half = 0.5 * h
         posture = Posture(angles_of(state.pose.real), pose_position(state.pose), state.momentum)
         for step in range(steps):
-            now, middle, end = step * h, (step + 0.5) * h, (step + 1) * h
-            k1 = rates_at(parameters, posture, time, now, wrench)
-            k2 = rates_at(parameters, shifted(posture, half, k1), time, middle, wrench)
-            k3 = rates_at(parameters, shifted(posture, half, k2), time, middle, wrench)
-            k4 = rates_at(parameters, shifted(posture, h, k3), time, end, wrench)
+            early, middle, late = foresee(parameters, time, step * h, wrench, NODES)
+            k1 = rates_at(parameters, posture, time, early)
+            k2 = rates_at(parameters, shifted(posture, half, k1), time, middle)
+            k3 = rates_at(parameters, shifted(posture, half, k2), time, middle)
+            k4 = rates_at(parameters, shifted(posture, h, k3), time, late)
             posture = shifted(posture, h / 6.0, weighted(k1, k2, k3, k4))
         attitude = attitude_of(halves(posture.angles))
         return land(parameters, state, Point(attitude, posture.position, posture.momentum), time, steps, 0)

@@ -23,8 +23,17 @@ from dq_marine.algebra.quaternion import (
 from dq_marine.algebra.spatial import Spatial, spatial_add, spatial_add_scaled, spatial_scale
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, scale
 from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.classical_runge_kutta import NODES
 from dq_marine.integrator.step import Advance, Composition, StepOutcome, StepParameters
-from dq_marine.report.baselines.dynamics import Point, make_landing, make_momentum_rate, twist_at
+from dq_marine.report.baselines.dynamics import (
+    Foreseen,
+    Point,
+    make_foresee,
+    make_landing,
+    make_momentum_rate,
+    twist_at,
+    without_time_forces,
+)
 from dq_marine.report.baselines.normalisation import normalised
 
 
@@ -60,19 +69,17 @@ def simpson(k1: Rates, k2: Rates, k3: Rates, k4: Rates) -> Rates:
     )
 
 
-def make_rates(composition: Composition) -> Callable[[StepParameters, Point, float, float, Spatial], Rates]:
-    """Return (parameters, point, start, elapsed, wrench) -> its rates; arguments as in `dynamics.make_wrench`."""
-    momentum_rate = make_momentum_rate(composition)
+def make_rates(composition: Composition) -> Callable[[StepParameters, Point, float, Foreseen], Rates]:
+    """Return (parameters, point, start, what is foreseen of the stage) -> its rates; see `dynamics.make_foresee`."""
+    momentum_rate = make_momentum_rate(without_time_forces(composition))
 
-    def rates_at(
-        parameters: StepParameters, point: Point, start: float, elapsed: float, wrench: Spatial
-    ) -> Rates:
+    def rates_at(parameters: StepParameters, point: Point, start: float, foreseen: Foreseen) -> Rates:
         twist = twist_at(parameters, point)
         half_spin = quaternion_from_vector(scale(0.5, twist.angular))
         return Rates(
             quaternion_multiply(point.attitude, half_spin),
             rotate(point.attitude, twist.linear),
-            momentum_rate(parameters, point, twist, start, elapsed, wrench),
+            momentum_rate(parameters, point, twist, start, foreseen.elapsed, foreseen.wrench),
         )
 
     return rates_at
@@ -81,7 +88,7 @@ def make_rates(composition: Composition) -> Callable[[StepParameters, Point, flo
 def make_rk4_quaternion(composition: Composition) -> Advance:
     """Return the advance of RK4 on quaternions: four evaluations of all forces a step."""
     rates_at = make_rates(composition)
-    land = make_landing(composition)
+    foresee, land = make_foresee(composition), make_landing(composition)
 
     def rk4_quaternion(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
@@ -90,11 +97,11 @@ def make_rk4_quaternion(composition: Composition) -> Advance:
         half = 0.5 * h
         point = Point(state.pose.real, pose_position(state.pose), state.momentum)
         for step in range(steps):
-            now, middle, end = step * h, (step + 0.5) * h, (step + 1) * h
-            k1 = rates_at(parameters, point, time, now, wrench)
-            k2 = rates_at(parameters, moved(point, half, k1), time, middle, wrench)
-            k3 = rates_at(parameters, moved(point, half, k2), time, middle, wrench)
-            k4 = rates_at(parameters, moved(point, h, k3), time, end, wrench)
+            early, middle, late = foresee(parameters, time, step * h, wrench, NODES)
+            k1 = rates_at(parameters, point, time, early)
+            k2 = rates_at(parameters, moved(point, half, k1), time, middle)
+            k3 = rates_at(parameters, moved(point, half, k2), time, middle)
+            k4 = rates_at(parameters, moved(point, h, k3), time, late)
             reached = moved(point, h / 6.0, simpson(k1, k2, k3, k4))
             point = Point(normalised(reached.attitude), reached.position, reached.momentum)
         return land(parameters, state, point, time, steps, 0)

@@ -29,8 +29,17 @@ from dq_marine.algebra.spatial import ZERO, Spatial, spatial_add, spatial_add_sc
 from dq_marine.algebra.stages import weighted_sum
 from dq_marine.algebra.vector3 import Vector3, add, add_scaled, cross, scale, subtract
 from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.classical_runge_kutta import NODES
 from dq_marine.integrator.step import Advance, Composition, StepOutcome, StepParameters
-from dq_marine.report.baselines.dynamics import Point, make_landing, make_wrench, twist_at
+from dq_marine.report.baselines.dynamics import (
+    Foreseen,
+    Point,
+    make_foresee,
+    make_landing,
+    make_wrench,
+    twist_at,
+    without_time_forces,
+)
 from dq_marine.report.baselines.normalisation import normalised
 
 SIMPSON = (1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0)
@@ -70,22 +79,21 @@ def arrived(departure: Departure, flight: Flight, attitude: Quaternion) -> Point
 
 def make_rates(
     composition: Composition,
-) -> Callable[[StepParameters, Departure, Flight, float, float, Spatial], Flight]:
-    """Return (parameters, departure, flight, start, elapsed, wrench) -> its rates (RT1); see `dynamics.make_wrench`."""
-    total = make_wrench(composition)
+) -> Callable[[StepParameters, Departure, Flight, float, Foreseen], Flight]:
+    """Return (parameters, departure, flight, start, what is foreseen of the stage) -> its rates (RT1)."""
+    total = make_wrench(without_time_forces(composition))
 
     def rates_at(
         parameters: StepParameters,
         departure: Departure,
         flight: Flight,
         start: float,
-        elapsed: float,
-        wrench: Spatial,
+        foreseen: Foreseen,
     ) -> Flight:
         q = flight.attitude
         point = arrived(departure, flight, q)
         twist = twist_at(parameters, point)
-        acting = total(parameters, point, twist, start, elapsed, wrench)
+        acting = total(parameters, point, twist, start, foreseen.elapsed, foreseen.wrench)
         force = rotate(q, acting.linear)
         moment = add(rotate(q, acting.angular), cross(flight.way, force))
         half_spin = quaternion_from_vector(scale(0.5, twist.angular))
@@ -97,7 +105,7 @@ def make_rates(
 def make_rk4_transported(composition: Composition) -> Advance:
     """Return the advance: four evaluations of all forces a step."""
     rates_at = make_rates(composition)
-    land = make_landing(composition)
+    foresee, land = make_foresee(composition), make_landing(composition)
 
     def rk4_transported(
         parameters: StepParameters, state: BodyState, wrench: Spatial, time: float, steps: int
@@ -110,11 +118,11 @@ def make_rk4_transported(composition: Composition) -> Advance:
             q, (a, b) = point.attitude, point.momentum
             from_here = Departure(point.position, Spatial(rotate(q, a), rotate(q, b)))
             begun = Flight(q, here, no_impulse)
-            now, middle, end = step * h, (step + 0.5) * h, (step + 1) * h
-            k1 = rates_at(parameters, from_here, begun, time, now, wrench)
-            k2 = rates_at(parameters, from_here, moved(begun, half, k1), time, middle, wrench)
-            k3 = rates_at(parameters, from_here, moved(begun, half, k2), time, middle, wrench)
-            k4 = rates_at(parameters, from_here, moved(begun, h, k3), time, end, wrench)
+            early, middle, late = foresee(parameters, time, step * h, wrench, NODES)
+            k1 = rates_at(parameters, from_here, begun, time, early)
+            k2 = rates_at(parameters, from_here, moved(begun, half, k1), time, middle)
+            k3 = rates_at(parameters, from_here, moved(begun, half, k2), time, middle)
+            k4 = rates_at(parameters, from_here, moved(begun, h, k3), time, late)
             flown = moved(begun, h, weighted_sum(SIMPSON, (k1, k2, k3, k4)))
             point = arrived(from_here, flown, normalised(flown.attitude))
         return land(parameters, state, point, time, steps, 0)

@@ -20,9 +20,18 @@ from dq_marine.algebra.quaternion import quaternion_multiply, rotate
 from dq_marine.algebra.spatial import Spatial, spatial_add, spatial_add_scaled, spatial_scale
 from dq_marine.algebra.vector3 import add
 from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.classical_runge_kutta import NODES
 from dq_marine.integrator.step import Advance, Composition, StepOutcome, StepParameters
 from dq_marine.report.baselines.displacement import displaced
-from dq_marine.report.baselines.dynamics import Point, make_landing, make_momentum_rate, twist_at
+from dq_marine.report.baselines.dynamics import (
+    Foreseen,
+    Point,
+    make_foresee,
+    make_landing,
+    make_momentum_rate,
+    twist_at,
+    without_time_forces,
+)
 from dq_marine.report.baselines.normalisation import normalised
 
 
@@ -54,15 +63,13 @@ def make_rkmk4(composition: Composition) -> Advance:
 
     Where no force depends on the pose only the last exponential is needed, and only that is computed.
     """
-    momentum_rate = make_momentum_rate(composition)
-    land = make_landing(composition)
+    momentum_rate = make_momentum_rate(without_time_forces(composition))
+    foresee, land = make_foresee(composition), make_landing(composition)
 
-    def slope_at(
-        parameters: StepParameters, point: Point, start: float, elapsed: float, wrench: Spatial
-    ) -> Slope:
+    def slope_at(parameters: StepParameters, point: Point, start: float, foreseen: Foreseen) -> Slope:
         h = parameters.timing.h
         twist = twist_at(parameters, point)
-        rate = momentum_rate(parameters, point, twist, start, elapsed, wrench)
+        rate = momentum_rate(parameters, point, twist, start, foreseen.elapsed, foreseen.wrench)
         return Slope(spatial_scale(h, twist), spatial_scale(h, rate))
 
     def rkmk4(
@@ -71,17 +78,17 @@ def make_rkmk4(composition: Composition) -> Advance:
         h = parameters.timing.h
         point = Point(state.pose.real, pose_position(state.pose), state.momentum)
         for step in range(steps):
-            now, middle, end = step * h, (step + 0.5) * h, (step + 1) * h
+            early, middle, late = foresee(parameters, time, step * h, wrench, NODES)
             mu = point.momentum
-            k1 = slope_at(parameters, point, time, now, wrench)
+            k1 = slope_at(parameters, point, time, early)
             u2, mu2 = spatial_scale(0.5, k1.twist), spatial_add_scaled(mu, 0.5, k1.impulse)
-            k2 = slope_at(parameters, arrived(point, u2, mu2), time, middle, wrench)
+            k2 = slope_at(parameters, arrived(point, u2, mu2), time, middle)
             turning = twist_bracket(k1.twist, k2.twist)
             u3 = spatial_add_scaled(spatial_scale(0.5, k2.twist), 0.125, turning)
             mu3 = spatial_add_scaled(mu, 0.5, k2.impulse)
-            k3 = slope_at(parameters, arrived(point, u3, mu3), time, middle, wrench)
+            k3 = slope_at(parameters, arrived(point, u3, mu3), time, middle)
             mu4 = spatial_add(mu, k3.impulse)
-            k4 = slope_at(parameters, arrived(point, k3.twist, mu4), time, end, wrench)
+            k4 = slope_at(parameters, arrived(point, k3.twist, mu4), time, late)
             u = spatial_add_scaled(
                 simpson(k1.twist, k2.twist, k3.twist, k4.twist),
                 1.0 / 12.0,

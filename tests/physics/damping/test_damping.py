@@ -11,6 +11,8 @@ from scipy.linalg import expm
 from support.bodies import PlainBody, make_body, random_damping, random_inertia
 from support.order import observed_order
 
+from dq_marine.algebra.spatial import from_fossen
+from dq_marine.backend.packing import pack
 from dq_marine.integrator.body import kinetic_energy
 from dq_marine.physics.damping.build import DampingTerm
 from dq_marine.physics.matrices import inertia_term, spatial
@@ -163,3 +165,25 @@ def test_the_accurate_kick_keeps_the_terminal_velocity_and_is_stable(stiffness):
         body.step(SURGE, 400)
         u = body.velocity_body[0]
         assert LINEAR[0, 0] * u + stiffness * QUADRATIC[0] * u * u == pytest.approx(40.0, rel=1e-9)
+
+
+COUPLED = np.eye(6) + 0.1 * np.ones((6, 6))
+
+
+@pytest.mark.parametrize(
+    ("linear", "quadratic", "numbers"),
+    [
+        (np.zeros((6, 6)), np.zeros(6), []),
+        (np.eye(6), np.zeros(6), [6]),
+        (np.zeros((6, 6)), np.ones(6), [12]),
+        (COUPLED, np.zeros(6), [36]),
+        (COUPLED, np.ones(6), [42]),
+    ],
+)
+def test_as_a_force_it_is_the_cheapest_that_has_all_of_it(linear, quadratic, numbers):
+    terms = DampingTerm(linear, quadratic, np.eye(6)).drag
+    assert [pack(term.parameters).size for term in terms] == numbers
+    nu = np.array([1.0, -2.0, 0.5, 0.3, -0.4, 2.0])
+    for term in terms:
+        force = term.wrench_at(None, from_fossen(tuple(nu)), 0.0)
+        assert np.allclose([*force.linear, *force.angular], -linear @ nu - quadratic * np.abs(nu) * nu)

@@ -77,7 +77,7 @@ def make_actuation(kinds: tuple[ActuatorKind, ...]) -> Actuation:
     effects = tuple(kind.effect for kind in kinds)
     follow, add_wrenches = join_followers(channels), join_effects(effects)
 
-    def posed_actuators(actuators: Actuators, pose: DualQuaternion, time: float) -> Spatial:
+    def resting_actuators(actuators: Actuators, time: float) -> Spatial:
         transient = actuators.transient
         values = follow(actuators.channels, transient.values, transient.targets, time - transient.since)
         return add_wrenches(actuators.effects, values, ZERO, ZERO)
@@ -91,7 +91,7 @@ def make_actuation(kinds: tuple[ActuatorKind, ...]) -> Actuation:
     return Actuation(
         channels=len(channels),
         uses_velocity=moving,
-        force=moving_actuators if moving else posed_actuators,
+        force=moving_actuators if moving else resting_actuators,
         rest=nested([0.0] * len(channels)),
         nest=make_nest(len(channels)),
         commands=make_commands(len(channels)),

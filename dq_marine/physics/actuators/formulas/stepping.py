@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.spatial import ZERO, Spatial
 from dq_marine.integrator.body import BodyState
+from dq_marine.integrator.forces import Forces
 from dq_marine.integrator.step import ACCEPTED, Composition, StepOutcome, StepParameters, make_advance
 from dq_marine.physics.actuators.formulas.force import Actuators, Transient
 
@@ -24,38 +25,40 @@ def with_transient(actuators: Actuators, transient: Transient) -> Actuators:
     return Actuators(actuators.channels, actuators.effects, actuators.step, transient)
 
 
-def pose_actuators(parameters: StepParameters) -> Actuators:
-    """Return the actuators' parameters where their force is the first pose force."""
-    actuators: Actuators = parameters.forces[0][0]
+def time_actuators(parameters: StepParameters) -> Actuators:
+    """Return the actuators' parameters where their force is the first that depends on time alone."""
+    actuators: Actuators = parameters.forces.of_time[0]
     return actuators
 
 
 def velocity_actuators(parameters: StepParameters) -> Actuators:
     """Return the actuators' parameters where their force is the first velocity force."""
-    actuators: Actuators = parameters.forces[1][0]
+    actuators: Actuators = parameters.forces.of_velocity[0]
     return actuators
 
 
-def with_pose_actuators(parameters: StepParameters, actuators: Actuators) -> StepParameters:
-    """Return the parameters with others for the actuators: see `pose_actuators`."""
+def with_time_actuators(parameters: StepParameters, actuators: Actuators) -> StepParameters:
+    """Return the parameters with others for the actuators: see `time_actuators`."""
     inertia, damping, forces, water, timing, contact = parameters
-    return StepParameters(inertia, damping, ((actuators, forces[0][1]), forces[1]), water, timing, contact)
+    driven = Forces((actuators, forces.of_time[1]), forces.of_pose, forces.of_velocity)
+    return StepParameters(inertia, damping, driven, water, timing, contact)
 
 
 def with_velocity_actuators(parameters: StepParameters, actuators: Actuators) -> StepParameters:
     """Return the parameters with others for the actuators: see `velocity_actuators`."""
     inertia, damping, forces, water, timing, contact = parameters
-    return StepParameters(inertia, damping, (forces[0], (actuators, forces[1][1])), water, timing, contact)
+    driven = Forces(forces.of_time, forces.of_pose, (actuators, forces.of_velocity[1]))
+    return StepParameters(inertia, damping, driven, water, timing, contact)
 
 
 def actuators_reader(composition: Composition) -> Callable[[StepParameters], Actuators]:
     """Return (parameters) -> the actuators' parameters, for a composition that has actuators."""
-    return velocity_actuators if composition.actuation.uses_velocity else pose_actuators
+    return velocity_actuators if composition.actuation.uses_velocity else time_actuators
 
 
 def actuators_writer(composition: Composition) -> Callable[[StepParameters, Actuators], StepParameters]:
     """Return (parameters, actuators) -> parameters with these, for a composition that has actuators."""
-    return with_velocity_actuators if composition.actuation.uses_velocity else with_pose_actuators
+    return with_velocity_actuators if composition.actuation.uses_velocity else with_time_actuators
 
 
 def make_actuated_advance(

@@ -20,3 +20,14 @@ def make_drag(algebra: DampingAlgebra) -> VelocityForce:
         return spatial_scale(-1.0, damping_apply(damping_at(damping, twist), twist))
 
     return drag
+
+
+@functools.cache
+def make_linear_drag(algebra: DampingAlgebra) -> VelocityForce:
+    """Return (D, pose, twist, time) -> the wrench -D chi of a damping matrix that does not depend on the velocity."""
+    damping_apply = algebra.apply
+
+    def drag(matrix: Any, pose: DualQuaternion, twist: Spatial, time: float) -> Spatial:
+        return spatial_scale(-1.0, damping_apply(matrix, twist))
+
+    return drag
