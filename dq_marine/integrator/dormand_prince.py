@@ -1,16 +1,13 @@
-"""Dormand and Prince's explicit Runge-Kutta method of order 8 (E1), with twelve stages, of which eight have a weight.
+"""Dormand and Prince's explicit Runge-Kutta method of order 8, with `twelve_stages`.
 
-sum_i e_i k_i is the difference from a method of order 5 that the same stages hold. The coefficients are those of the
-code DOP853 (Hairer, Norsett, Wanner 1993, Solving Ordinary Differential Equations I, sec. II.5 and II.10), each row
-without its zeros: from the sixth stage on, stages 2 and 3 have none.
+Its differences are those from a method of order 5 that the same stages hold. The coefficients are those of the code
+DOP853 (Hairer, Norsett, Wanner 1993, Solving Ordinary Differential Equations I, sec. II.5 and II.10).
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
-from dq_marine.algebra.stages import Weights, weighted_step, weighted_sum
-from dq_marine.integrator.explicit import Explicit, Extent, Find, Foresee, IsStable, Taken, TakeStep
+from dq_marine.algebra.stages import Weights
+from dq_marine.integrator.twelve_stages import Coefficients, make_method
 
 NODES: Weights = (
     0.0,
@@ -112,52 +109,13 @@ ERROR: Weights = (
 )
 """e_i of the same stages."""
 
-
-class Telling(NamedTuple):
-    """The difference from the method of order 5, and the rates at the start of the step and after a third of it."""
-
-    difference: Any
-    first: Any
-    sixth: Any
-
-
 LARGEST_DIFFERENCE = 0.0877
 """Of rates. For y' = z y that is reached at z = -6.39, where stability ends, and at z = 5.1i, where that ends at 6.0i;
 wherever it is not exceeded the method is stable, unless the real part of z is positive."""
 
+ROWS = (A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12)
+"""a_ij of the stages 2 to 12."""
 
-def make_step(foresee: Foresee, find: Find) -> TakeStep:
-    """Return (E1): a step."""
+COEFFICIENTS = Coefficients(NODES, ROWS, WEIGHTS, ERROR, LARGEST_DIFFERENCE)
 
-    def step(context: Any, h: float, start: Any) -> Taken:
-        s1, s2, s3, s4, s5, s6, s7, s8, s9, s10, s11, s12 = foresee(context, NODES)
-        k1 = find(context, s1, start)
-        k2 = find(context, s2, weighted_step(start, h, A2, (k1,)))
-        k3 = find(context, s3, weighted_step(start, h, A3, (k1, k2)))
-        k4 = find(context, s4, weighted_step(start, h, A4, (k1, k3)))
-        k5 = find(context, s5, weighted_step(start, h, A5, (k1, k3, k4)))
-        k6 = find(context, s6, weighted_step(start, h, A6, (k1, k4, k5)))
-        k7 = find(context, s7, weighted_step(start, h, A7, (k1, k4, k5, k6)))
-        k8 = find(context, s8, weighted_step(start, h, A8, (k1, k4, k5, k6, k7)))
-        k9 = find(context, s9, weighted_step(start, h, A9, (k1, k4, k5, k6, k7, k8)))
-        k10 = find(context, s10, weighted_step(start, h, A10, (k1, k4, k5, k6, k7, k8, k9)))
-        k11 = find(context, s11, weighted_step(start, h, A11, (k1, k4, k5, k6, k7, k8, k9, k10)))
-        k12 = find(context, s12, weighted_step(start, h, A12, (k1, k4, k5, k6, k7, k8, k9, k10, k11)))
-        with_weights = (k1, k6, k7, k8, k9, k10, k11, k12)
-        telling = Telling(weighted_sum(ERROR, with_weights), k1, k6)
-        return Taken(weighted_step(start, h, WEIGHTS, with_weights), telling)
-
-    return step
-
-
-def make_is_stable(extent: Extent) -> IsStable:
-    """Return whether a step was short enough."""
-
-    def is_stable(context: Any, rates: Telling, blur: float) -> bool:
-        changing = extent(context, rates.first) + extent(context, rates.sixth)
-        return extent(context, rates.difference) <= LARGEST_DIFFERENCE**2 * changing + blur
-
-    return is_stable
-
-
-DORMAND_PRINCE = Explicit(8, make_step, make_is_stable)
+DORMAND_PRINCE = make_method(COEFFICIENTS)

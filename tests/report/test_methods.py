@@ -25,9 +25,11 @@ COUNTS = {1: (100, 200, 400), 2: (20, 40, 80), 4: (8, 12, 18), 6: (5, 7, 9), 8: 
 FINER = {
     ("rk4_euler", "kirchhoff_bluerov2"): 8,
     ("gauss8", "kirchhoff_bluerov2"): 2,
-    **{(name, "kirchhoff_bluerov2"): 4 for name in ("rk8", "dop853")},
-    **{(name, "coupled_rexrov"): 2 for name in ("rk8", "dop853")},
+    ("dop853", "kirchhoff_bluerov2"): 4,
+    ("dop853", "coupled_rexrov"): 2,
 }
+LONGER = {("rk8", "ship_restoring"): 2.0}
+"""Motions [s] in which errors would be those of rounding within the second that others take."""
 """How much finer where a pitch comes near 90 degrees, where the sweeps still end too early to show the order, and where
 an explicit method needs shorter steps to show it."""
 
@@ -62,7 +64,7 @@ def test_every_method_does_every_case_that_it_does_not_refuse(name, case):
 def test_methods_converge_to_the_reference_at_their_order(name, case):
     method = METHODS[name]
     counts = np.array(COUNTS[method.order]) * FINER.get((name, case), 1)
-    case = replace(CASES[case], duration=1.0)
+    case = replace(CASES[case], duration=LONGER.get((name, case), 1.0))
     end = reference(case).end
     measured = np.array([errors(end_in_plain_python(method, case, count), end) for count in counts])
     # Position, attitude and velocity together, each relative to its first: one alone may be exact by symmetry.
