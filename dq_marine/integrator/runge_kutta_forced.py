@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion, pose_from_parts, pose_position
-from dq_marine.algebra.selection import by_precision, smallest_normal, some, spread
+from dq_marine.algebra.selection import by_precision, smallest_normal, spread
 from dq_marine.algebra.spatial import Spatial
 from dq_marine.algebra.stages import Weights, for_each
 from dq_marine.algebra.vector3 import Vector3, add
@@ -114,16 +114,14 @@ def make_forced_steps(composition: Composition, method: Explicit) -> Steps:
         like = momentum.linear[0]
         length_squared, position = squared_length(parameters.inertia), pose_position(pose)
         here = Place(momentum, pose.real, spread((0.0, 0.0, 0.0), like))
-        fine = spread(True, like)
+        fine, per_square = spread(True, like), 1.0 / (h * h)
 
         for step in range(steps):
             departure = Departure(parameters, length_squared, h, position, wrench, time, step * h)
             reached, rates = take_step(departure, h, here)
-            size = (weighted_square(length_squared, here.momentum) + smallest_normal(like)) / (h * h)
+            size = (weighted_square(length_squared, here.momentum) + smallest_normal(like)) * per_square
             blur = by_precision(size, ROUND_OFF**2, ROUND_OFF_SINGLE**2) * size
             fine = fine & is_stable(length_squared, rates, blur)
-            if not some(fine):
-                break
             here = Place(reached.momentum, unit(reached.attitude), reached.way)
         after = pose_from_parts(here.attitude, add(position, here.way))
         after = carry(parameters.water, time, steps * h, after)

@@ -18,6 +18,14 @@ from dq_marine.integrator.gauss_stages import squared_length
 from dq_marine.integrator.increment import AT_ONCE, consistent, unit
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 
+ARM = 0.1
+"""Of the linear momentum's weight in (G6), over Gauss's.
+
+An explicit method keeps neither the linear momentum's size nor its product with the angular momentum. Linear momentum
+turns with the body and errs most; with Gauss's weight its errors would spread to the angular momentum, on which
+rotation depends.
+"""
+
 
 def find(inertia: Inertia, node: float, place: Place) -> Place:
     """Return the rates of momentum (G2), attitude and way (G8) at a place, at any time."""
@@ -48,7 +56,7 @@ def make_free_steps(method: Explicit) -> FreeSteps:
         had, has = quadratic_form(inertia.inverse, start), quadratic_form(inertia.inverse, here.momentum)
         kept = abs(has - had) <= steps * LARGEST_ENERGY_CHANGE * had
         report = DriftReport(nothing_solved(had), kept)
-        length = math.sqrt(squared_length(inertia))
+        length = ARM * math.sqrt(squared_length(inertia))
         moved = consistent(length, motion(begun, here), start, here.momentum)
         return moved_by(moved, pose, momentum, report)
 
