@@ -7,24 +7,23 @@ import math
 
 from dq_marine.algebra.dual_quaternion import DualQuaternion
 from dq_marine.algebra.frames import momentum_bracket
-from dq_marine.algebra.selection import spread
+from dq_marine.algebra.selection import smallest_normal, spread
 from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_scale
+from dq_marine.algebra.vector3 import cross, dot
 from dq_marine.integrator.drift_report import LARGEST_ENERGY_CHANGE, DriftReport, nothing_solved
 from dq_marine.integrator.explicit import Explicit, foresee_nothing
 from dq_marine.integrator.forced_stages import Place, travelling, turning
 from dq_marine.integrator.gauss_drift import FreeSteps, moved_by
 from dq_marine.integrator.gauss_forced import motion
 from dq_marine.integrator.gauss_stages import squared_length
-from dq_marine.integrator.increment import AT_ONCE, consistent, unit
+from dq_marine.integrator.increment import AT_ONCE, carried, consistent, unit
 from dq_marine.integrator.inertia import Inertia, twist_from_momentum
 
-ARM = 0.1
-"""Of the linear momentum's weight in (G6), over Gauss's.
+LEAST_ARM = 0.1
+"""Of the linear momentum's weight in (G6), over Gauss's."""
 
-An explicit method keeps neither the linear momentum's size nor its product with the angular momentum. Linear momentum
-turns with the body and errs most; with Gauss's weight its errors would spread to the angular momentum, on which
-rotation depends.
-"""
+STEEPNESS = 10.0
+"""With which the arm grows with the share that translation has in what turns the body."""
 
 
 def find(inertia: Inertia, node: float, place: Place) -> Place:
@@ -32,6 +31,20 @@ def find(inertia: Inertia, node: float, place: Place) -> Place:
     twist = twist_from_momentum(inertia, place.momentum)
     rate = momentum_bracket(twist, place.momentum)
     return Place(rate, turning(place.attitude, twist), travelling(place.attitude, twist))
+
+
+def arm(inertia: Inertia, momentum: Spatial) -> float:
+    """Return the weight of the linear momentum in (G6), over Gauss's.
+
+    An explicit method keeps neither the linear momentum's size nor its product with the angular momentum. Linear
+    momentum turns with the body and errs most. Where it hardly turns the body itself, by Munk's moment b x v, its
+    errors are not to spread to the angular momentum, on which rotation depends then.
+    """
+    twist = twist_from_momentum(inertia, momentum)
+    munk, spin = cross(momentum.linear, twist.linear), cross(momentum.angular, twist.angular)
+    by_way, by_spin = dot(munk, munk), dot(spin, spin)
+    share = math.sqrt(by_way / (by_way + by_spin + smallest_normal(by_way)))
+    return min(1.0, max(LEAST_ARM, STEEPNESS * share))
 
 
 @functools.cache
@@ -53,11 +66,13 @@ def make_free_steps(method: Explicit) -> FreeSteps:
         for _ in range(steps):
             reached = take_step(inertia, 1.0, here).reached
             here = Place(reached.momentum, unit(reached.attitude), reached.way)
-        had, has = quadratic_form(inertia.inverse, start), quadratic_form(inertia.inverse, here.momentum)
-        kept = abs(has - had) <= steps * LARGEST_ENERGY_CHANGE * had
-        report = DriftReport(nothing_solved(had), kept)
-        length = ARM * math.sqrt(squared_length(inertia))
+        length = arm(inertia, here.momentum) * math.sqrt(squared_length(inertia))
         moved = consistent(length, motion(begun, here), start, here.momentum)
-        return moved_by(moved, pose, momentum, report)
+        # Steps that are far too long leave a momentum that no pose carries to: that handed on has an energy of its own.
+        had, has = quadratic_form(inertia.inverse, start), quadratic_form(inertia.inverse, here.momentum)
+        hands_on = quadratic_form(inertia.inverse, carried(moved, start))
+        most = steps * LARGEST_ENERGY_CHANGE * had
+        kept = (abs(has - had) <= most) & (abs(hands_on - had) <= most)
+        return moved_by(moved, pose, momentum, DriftReport(nothing_solved(had), kept))
 
     return free_steps
