@@ -81,9 +81,12 @@ WITH_STAGES = {
     ("galerkin", 6): [11, 14, 18],
     ("galerkin", 8): [12, 16, 20, 24],
     ("gauss", 8): [12, 16, 20, 24],
-    ("runge_kutta", 8): [12, 16, 20, 24],
+    ("runge_kutta", 8): [6, 10, 16, 28],
 }
-"""Steps of the motion, by scheme and order."""
+"""Steps of the motion, by scheme and order.
+
+Few and many of the last: errors of its eighth order are small, and cancel with those of the next on the way.
+"""
 IN_A_SLOPE = {
     **WITH_STAGES,
     ("galerkin", 8): [16, 20, 24, 28],
@@ -109,7 +112,7 @@ def test_higher_orders_hold_in_a_slope(scheme, order):
 def test_schemes_with_stages_cross_a_corner_better_than_order_two_and_with_its_slope():
     """A step that holds a corner errs by its square, as every step of order two does; no other step does.
 
-    Where in a step the corner lies makes a difference: errors are the largest of some starts.
+    Where in a step the corner lies makes a difference: errors are the largest of many starts.
     """
     corner = CurrentProfile([0.0, 5.0, 10.0], [[0.5, 0.0], [0.5, 0.0], [-0.5, 0.4]])
     rng = np.random.default_rng(0)
@@ -119,7 +122,7 @@ def test_schemes_with_stages_cross_a_corner_better_than_order_two_and_with_its_s
     case = {"current": profile_water(corner), "kind": PlainBody}
     methods = (("midpoint", 2), ("galerkin", 4), ("gauss", 8), ("runge_kutta", 8))
     worst = {scheme: np.zeros(len(counts)) for scheme, _ in methods}
-    for depth in (4.66, 4.69, 4.73, 4.75):
+    for depth in np.linspace(4.64, 4.75, 16):
         begin = (np.array([0.0, 0.0, depth]), q, velocity)
         reference = solve_in_moving_water(
             m, *begin, DURATION, lambda t, x: corner.at(x[2]), lambda t, x: still, corners=corner.depths
