@@ -1,4 +1,4 @@
-"""Sequences as nested pairs, (first, (second, (..., ()))), and functions that take such pairs apart one by one."""
+"""Nested tuples: sequences as nested pairs, (first, (second, (..., ()))), and functions that take such pairs apart."""
 
 from __future__ import annotations
 
@@ -24,3 +24,10 @@ def folded(link: Callable[[Item, Any], Joined], items: Sequence[Item], end: Any)
 def nested(items: Sequence[Any]) -> Any:
     """Return (first, (second, (..., ())))."""
     return folded(lambda first, rest: (first, rest), items, ())
+
+
+def alike(structure: tuple[Any, ...], parts: list[Any]) -> Any:
+    """Return a tuple of the structure's type, of these parts."""
+    if hasattr(structure, "_fields"):
+        return type(structure)(*parts)
+    return type(structure)(parts)

@@ -13,6 +13,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, TypeAlias
 
+from dq_marine.algebra.nesting import alike
+
 Weights: TypeAlias = tuple[float, ...]
 """A number for each stage, of the method."""
 
@@ -56,7 +58,7 @@ def stage_sum(weights: Weights, structure: Any) -> Any:
     if isinstance(structure, Stages):
         return paired_sum([weight * part for weight, part in zip(weights, structure, strict=True)])
     if isinstance(structure, tuple):
-        return _alike(structure, [stage_sum(weights, part) for part in structure])
+        return alike(structure, [stage_sum(weights, part) for part in structure])
     return paired_sum([weight * structure for weight in weights])
 
 
@@ -74,7 +76,7 @@ def weighted_sum(weights: Weights, structures: tuple[Any, ...]) -> Any:
     """
     first = structures[0]
     if isinstance(first, tuple):
-        return _alike(first, [weighted_sum(weights, parts) for parts in zip(*structures, strict=True)])
+        return alike(first, [weighted_sum(weights, parts) for parts in zip(*structures, strict=True)])
     return paired_sum([weight * part for weight, part in zip(weights, structures, strict=True)])
 
 
@@ -89,7 +91,7 @@ def weighted_step(start: Any, h: float, weights: Weights, rates: tuple[Any, ...]
     """
     if isinstance(start, tuple):
         pairs = zip(start, zip(*rates, strict=True), strict=True)
-        return _alike(start, [weighted_step(part, h, weights, parts) for part, parts in pairs])
+        return alike(start, [weighted_step(part, h, weights, parts) for part, parts in pairs])
     return start + paired_sum([(h * weight) * rate for weight, rate in zip(weights, rates, strict=True)])
 
 
@@ -102,7 +104,7 @@ def stages_together(structures: tuple[Any, ...]) -> Any:
     """Return the structure of stages whose parts these structures of ordinary numbers are: `stages_apart` undone."""
     first = structures[0]
     if isinstance(first, tuple):
-        return _alike(first, [stages_together(parts) for parts in zip(*structures, strict=True)])
+        return alike(first, [stages_together(parts) for parts in zip(*structures, strict=True)])
     return Stages(structures)
 
 
@@ -119,12 +121,5 @@ def _at(structure: Any, j: int) -> Any:
     if isinstance(structure, Stages):
         return structure[j]
     if isinstance(structure, tuple):
-        return _alike(structure, [_at(part, j) for part in structure])
+        return alike(structure, [_at(part, j) for part in structure])
     return structure
-
-
-def _alike(structure: tuple[Any, ...], parts: list[Any]) -> Any:
-    """Return a tuple of the structure's type, of these parts."""
-    if hasattr(structure, "_fields"):
-        return type(structure)(*parts)
-    return type(structure)(parts)

@@ -10,7 +10,7 @@ from typing import Any
 import numba
 from numba.extending import overload, register_jitable
 
-from dq_marine.backend import stages, structure_sums, wide_words  # noqa: F401  give compiled code what they provide
+from dq_marine.backend import entries, stages, structure_sums, wide_words  # noqa: F401  give compiled code what they provide
 from dq_marine.backend.disk_cache import keep_on_disk
 from dq_marine.backend.fingerprint import all_used_functions, key_and_fingerprint
 from dq_marine.backend.inlining import INLINED

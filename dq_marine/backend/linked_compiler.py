@@ -11,56 +11,20 @@ from collections.abc import Callable
 from typing import Any
 
 from llvmlite import binding
-from numba import _dynfunc, types
+from numba import types
 from numba.core.bytecode import FunctionIdentity
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder, compile_result
-from numba.core.compiler_machinery import register_pass
+from numba.core.compiler import CompilerBase, CompileResult, compile_result
 from numba.core.environment import Environment
-from numba.core.typed_passes import NativeLowering
 from numba.core.untyped_passes import ExtractByteCode
 
 from dq_marine.backend.disk_cache import CompositionCache, Form, open_cache
 from dq_marine.backend.fingerprint import key_and_fingerprint
 from dq_marine.backend.lane_type import Lanes
+from dq_marine.backend.linked_passes import LeanCounts, LinkedLibrary, LinkedPasses, linked_passes, make_known
 from dq_marine.backend.parts import PARTS
 
 PLAIN_TYPES = (types.Number, types.Boolean, types.NoneType, types.Array, Lanes)
 """Of arguments, in tuples too, with which a function is kept: not functions, which each process makes anew."""
-
-
-class LinkedLibrary(JITCodeLibrary):
-    """LLVM's text of a function and of all that it calls, optimised, to be linked into that of its callers."""
-
-    def _finalize_final_module(self) -> None:
-        self._finalize_dynamic_globals()
-        self._verify_declare_only_symbols()
-        self._finalized = True
-
-
-def make_known(target: Any, library: LinkedLibrary, described: Any, environment: Any) -> Any:
-    """Let callers find a function, and return the handle by which they do. It cannot be called from Python."""
-    module, name = described.lookup_module(), described.qualname
-    handle = _dynfunc.make_function(module, name, "", 0, environment, (library,))
-    target.insert_user_function(handle, described, [library])
-    return handle
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)
-class LinkedLowering(NativeLowering):
-    """Numba's lowering, without machine code."""
-
-    _name = "linked_lowering"
-
-    def run_pass(self, state: Any) -> bool:
-        """Lower a function, and make it known."""
-        state.library = LinkedLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.flags.no_compile = True
-        super().run_pass(state)
-        lowered = state["cr"]
-        handle = make_known(state.targetctx, state.library, lowered.fndesc, lowered.env)
-        state["cr"] = lowered._replace(cfunc=handle)
-        return True
 
 
 def is_whole(compiled: CompileResult) -> bool:
@@ -134,6 +98,11 @@ def is_plain(kind: types.Type) -> bool:
 class LinkedCompiler(CompilerBase):
     """Numba's compiler, with that lowering."""
 
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        target = self.state.targetctx
+        target.nrt = LeanCounts(target, target.enable_nrt)
+
     def compile_extra(self, function: Callable[..., Any]) -> Any:
         """Load a function from disk, or compile it and keep it there."""
         state, cache = self.state, cache_of(function, self.state)
@@ -154,12 +123,6 @@ class LinkedCompiler(CompilerBase):
         self.state.lifted, self.state.lifted_from = (), None
         return self._compile_bytecode()
 
-    def define_pipelines(self) -> list[Any]:
+    def define_pipelines(self) -> list[LinkedPasses]:
         """Return the one pipeline: there is no Python mode to fall back to."""
-        pipeline = DefaultPassBuilder.define_nopython_pipeline(self.state, "linked")
-        pipeline.passes = [
-            (LinkedLowering if step is NativeLowering else step, description)
-            for step, description in pipeline.passes
-        ]
-        pipeline.finalize()
-        return [pipeline]
+        return [linked_passes(self.state.flags)]

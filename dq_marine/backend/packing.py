@@ -17,6 +17,7 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
+from dq_marine.algebra.nesting import alike
 from dq_marine.algebra.table import Table
 from dq_marine.backend.table_type import TableType
 
@@ -66,7 +67,7 @@ class Unpacker:
                 self._bits[index], self._parts[index] = bits, unpack(self._like[index], part)
                 changed = True
         if changed:
-            self._whole = _of_kind(self._like, self._parts)
+            self._whole = alike(self._like, self._parts)
         return self._whole
 
 
@@ -81,11 +82,7 @@ def rebuild(like: Any, components: Iterator[Any]) -> Any:
         return next(components)
     if isinstance(like, Table):  # of a sea, some thousands: all at once
         return Table(islice(components, len(like)))
-    return _of_kind(like, [rebuild(part, components) for part in like])
-
-
-def _of_kind(like: tuple[Any, ...], parts: list[Any]) -> Any:
-    return type(like)(*parts) if hasattr(like, "_fields") else type(like)(parts)
+    return alike(like, [rebuild(part, components) for part in like])
 
 
 def structure_type(structure: Any) -> types.Type:

@@ -13,6 +13,7 @@ from dq_marine.physics.damping.build import angular_first
 from dq_marine.physics.damping.formulas.blended import Blend, blended_damping
 from dq_marine.physics.damping.formulas.cross_flow import StripRow, make_strip_sums
 from dq_marine.physics.damping.formulas.diagonal import DiagonalDamping
+from dq_marine.physics.damping.formulas.matrix_entries import make_entry_addition
 from dq_marine.physics.damping.formulas.matrix_kinds import ZERO, sparse_matrix
 from dq_marine.physics.matrices import matrix6, spatial
 
@@ -158,10 +159,10 @@ def test_a_sparse_matrix_is_its_array(seed, couplings):
     d = kind.own_at(DiagonalDamping(spatial(diagonal), spatial(np.zeros(6))), spatial(chi))
     d_array = np.diag(angular_first(np.diag(diagonal)).diagonal().copy())
     for (row, column), number in zip(places, numbers, strict=False):
-        d = kind.make_entry_addition(row, column)(d, number)
+        d = make_entry_addition(kind.place(row, column))(d, number)
         d_array[row, column] += number
     for row in range(6):
-        d = kind.make_entry_addition(row, row)(d, 0.5)
+        d = make_entry_addition(kind.place(row, row))(d, 0.5)
         d_array[row, row] += 0.5
     d_array, wide = angular_first(d_array), matrix6(angular_first(m))
     assert np.allclose(array(kind.add_scaled(wide, 0.3, d)), m + 0.3 * d_array, rtol=0, atol=1e-13)

@@ -20,6 +20,7 @@ import functools
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
+from dq_marine.algebra.entries import Places, add_products
 from dq_marine.algebra.nesting import folded
 from dq_marine.algebra.selection import select
 from dq_marine.algebra.spatial import (
@@ -27,9 +28,11 @@ from dq_marine.algebra.spatial import (
     Spatial,
     matrix6_add_scaled,
     matrix6_diagonal,
+    spatial_absolute,
     spatial_scale,
     spatial_subtract,
 )
+from dq_marine.algebra.vector3 import Vector3
 from dq_marine.integrator.damping import DampingAlgebra
 from dq_marine.physics.damping.formulas.blended import (
     Blend,
@@ -115,38 +118,50 @@ AddToMatrix: TypeAlias = Callable[[Any, Spatial, Any], Any]
 """(parameters, twist, matrix) -> matrix, of the kind that it is made for."""
 
 
-@functools.cache
-def make_coupling(kind: MatrixKind, coupling: Coupling) -> AddToMatrix:
-    """Return (c, twist, D) -> D with c |chi_k|, or c chi_k, added to its entry."""
-    add_entry = kind.make_entry_addition(coupling.force, coupling.velocity)
-    speed_of = make_component(coupling.speed)
+def join_couplings(kind: MatrixKind, couplings: tuple[Coupling, ...]) -> AddToMatrix:
+    """Return (numbers, twist, D) -> D with c |chi_k|, or c chi_k, of every coupling added to its entry."""
+    if not couplings:
+        return add_nothing
+    places = Places(
+        (kind.place(one.force, one.velocity), index, one.speed if one.signed else 6 + one.speed)
+        for index, one in enumerate(couplings)
+    )
 
-    def add_coupling(coefficient: float, twist: Spatial, matrix: Any) -> Any:
-        return add_entry(matrix, coefficient * abs(speed_of(twist)))
+    def add_couplings(coefficients: Any, twist: Spatial, matrix: Any) -> Any:
+        return add_products(places, matrix, coefficients, (twist, spatial_absolute(twist)))
 
-    def add_signed_coupling(coefficient: float, twist: Spatial, matrix: Any) -> Any:
-        return add_entry(matrix, coefficient * speed_of(twist))
-
-    return add_signed_coupling if coupling.signed else add_coupling
+    return add_couplings
 
 
-@functools.cache
-def make_coupling_slope(coupling: Coupling) -> AddToMatrix:
-    """Return (c, twist, S) -> S with the derivative of c |chi_k| chi_j, or c chi_k chi_j, added to its row."""
-    add_coupling = make_coupling(FULL_MATRIX, coupling)
-    add_entry = make_entry_addition(coupling.force, coupling.speed)
-    speed_of, velocity_of = make_component(coupling.speed), make_component(coupling.velocity)
+def join_coupling_slopes(couplings: tuple[Coupling, ...]) -> AddToMatrix:
+    """Return (numbers, twist, S) -> S with the derivative of c |chi_k| chi_j, or c chi_k chi_j, added to its row."""
+    if not couplings:
+        return add_nothing
+    add_couplings = join_couplings(FULL_MATRIX, couplings)
+    nothing = (0.0,) * len(couplings)
+    turned = Places(
+        (index, 6 if one.signed else one.speed, one.velocity) for index, one in enumerate(couplings)
+    )
+    turning = Places(
+        (FULL_MATRIX.place(one.force, one.speed), index, index) for index, one in enumerate(couplings)
+    )
 
-    def add_coupling_slope(coefficient: float, twist: Spatial, matrix: Matrix6) -> Matrix6:
-        turning = coefficient * velocity_of(twist)  # (D2)
-        turning = select(speed_of(twist) < 0.0, -turning, turning)
-        return add_entry(add_coupling(coefficient, twist, matrix), turning)
+    def add_coupling_slopes(coefficients: Any, twist: Spatial, matrix: Matrix6) -> Matrix6:
+        velocities = add_products(turned, nothing, (signs_of(twist), 1.0), twist)
+        matrix = add_couplings(coefficients, twist, matrix)
+        return add_products(turning, matrix, coefficients, velocities)  # (D2)
 
-    def add_signed_slope(coefficient: float, twist: Spatial, matrix: Matrix6) -> Matrix6:
-        turning = coefficient * velocity_of(twist)  # (D2)
-        return add_entry(add_coupling(coefficient, twist, matrix), turning)
+    return add_coupling_slopes
 
-    return add_signed_slope if coupling.signed else add_coupling_slope
+
+def signs_of(twist: Spatial) -> Spatial:
+    """Return -1 for every component that is negative, and 1 for the others."""
+    return Spatial(signs(twist.angular), signs(twist.linear))
+
+
+def signs(a: Vector3) -> Vector3:
+    """Return -1 for every component that is negative, and 1 for the others."""
+    return (select(a[0] < 0.0, -1.0, 1.0), select(a[1] < 0.0, -1.0, 1.0), select(a[2] < 0.0, -1.0, 1.0))
 
 
 @functools.cache
@@ -155,9 +170,10 @@ def make_strips(kind: MatrixKind, shape: StripShape, factor: float) -> AddToMatr
     across, turning = shape.plane
     speed_of, rate_of = make_component(across), make_component(turning)
     sums_of: SumStrips = make_strip_sums(shape.number)
-    adding = kind.make_entry_addition
-    add_zeroth, add_second = adding(across, across), adding(turning, turning)
-    add_first, add_mirrored = adding(across, turning), adding(turning, across)
+    add_zeroth, add_second, add_first, add_mirrored = (
+        make_entry_addition(kind.place(row, column))
+        for row, column in ((across, across), (turning, turning), (across, turning), (turning, across))
+    )
 
     def add_strips(row: Any, twist: Spatial, matrix: Any) -> Any:
         sums = sums_of(row, speed_of(twist), rate_of(twist))
@@ -171,7 +187,7 @@ def make_strips(kind: MatrixKind, shape: StripShape, factor: float) -> AddToMatr
 @functools.cache
 def make_blend(kind: MatrixKind, axis: int) -> AddToMatrix:
     """Return (blend, twist, D) -> D with blended damping added to its diagonal."""
-    add_entry = kind.make_entry_addition(axis, axis)
+    add_entry = make_entry_addition(kind.place(axis, axis))
     surge_of, velocity_of = make_component(SURGE), make_component(axis)
 
     def add_blend(blend: Blend, twist: Spatial, matrix: Any) -> Any:
@@ -183,10 +199,11 @@ def make_blend(kind: MatrixKind, axis: int) -> AddToMatrix:
 @functools.cache
 def make_blend_slope(axis: int) -> AddToMatrix:
     """Return (blend, twist, S) -> S with the derivative of blended damping added to its row (B2)."""
-    add_own, add_turning = make_entry_addition(axis, axis), make_entry_addition(axis, SURGE)
+    place = FULL_MATRIX.place
+    add_own, add_turning = make_entry_addition(place(axis, axis)), make_entry_addition(place(axis, SURGE))
     surge_of, velocity_of = make_component(SURGE), make_component(axis)
 
-    def add_blend_slope(blend: Blend, twist: Spatial, matrix: Matrix6) -> Matrix6:
+    def add_blend_slope(blend: Blend, twist: Spatial, matrix: Any) -> Any:
         surge, velocity = surge_of(twist), velocity_of(twist)
         matrix = add_own(matrix, blended_slope(blend, surge, velocity))
         return add_turning(matrix, blended_turning(blend, surge, velocity))
@@ -216,8 +233,8 @@ def coupled_algebra(structure: DampingStructure) -> DampingAlgebra:
     """Return the operations on damping matrices of a structure, the same functions for equal structures."""
     kind, full = structure.matrix_kind, FULL_MATRIX
     own_at, own_slope, diagonal_of = kind.own_at, kind.own_slope, kind.diagonal
-    add_couplings = join_additions(tuple(make_coupling(kind, c) for c in structure.couplings))
-    add_coupling_slopes = join_additions(tuple(make_coupling_slope(c) for c in structure.couplings))
+    add_couplings = join_couplings(kind, structure.couplings)
+    add_coupling_slopes = join_coupling_slopes(structure.couplings)
     add_strips = join_additions(tuple(make_strips(kind, shape, 1.0) for shape in structure.strips))
     add_strip_slopes = join_additions(tuple(make_strips(full, shape, 2.0) for shape in structure.strips))
     add_blends = join_additions(tuple(make_blend(kind, axis) for axis in structure.blends))

@@ -1,4 +1,4 @@
-"""Single entries, rows and columns of matrices and spatial vectors, by indices that are known before compilation.
+"""Single entries of matrices and spatial vectors, by indices that are known before compilation.
 
 Indices count from 0 to 5, the angular part first.
 """
@@ -9,9 +9,10 @@ import functools
 from collections.abc import Callable
 from typing import Any
 
+from dq_marine.algebra.entries import Places, add_products
 from dq_marine.algebra.matrix3 import Matrix3
 from dq_marine.algebra.spatial import Matrix6, Spatial
-from dq_marine.algebra.vector3 import Vector3, add_scaled
+from dq_marine.algebra.vector3 import Vector3
 
 
 @functools.cache
@@ -28,118 +29,20 @@ def make_component(index: int) -> Callable[[Spatial], float]:
     return angular_component if index < 3 else linear_component
 
 
-@functools.cache
-def make_component_addition(index: int) -> Callable[[Spatial, float], Spatial]:
-    """Return (a, value) -> a with a value added to one component."""
-    place = index % 3
-    after = place + 1
-
-    def raised(part: Any, value: float) -> Any:
-        return part[:place] + (part[place] + value,) + part[after:]  # noqa: RUF005 - compiled code knows no star
-
-    def add_angular(a: Spatial, value: float) -> Spatial:
-        return Spatial(raised(a.angular, value), a.linear)
-
-    def add_linear(a: Spatial, value: float) -> Spatial:
-        return Spatial(a.angular, raised(a.linear, value))
-
-    return add_angular if index < 3 else add_linear
+def entry_place(row: int, column: int) -> int:
+    """Return where an entry stands among the 36 numbers of a `Matrix6`."""
+    return 9 * (2 * (row // 3) + column // 3) + 3 * (row % 3) + column % 3
 
 
 @functools.cache
-def make_entry_addition(row: int, column: int) -> Callable[[Matrix6, float], Matrix6]:
-    """Return (m, value) -> m with a value added to one entry."""
-    place = 3 * (row % 3) + column % 3
-    after = place + 1
+def make_entry_addition(place: int) -> Callable[[Any, float], Any]:
+    """Return (m, value) -> m with a value added to the number that stands at a place, whatever kind of matrix m is."""
+    there = Places([(place, 0, 0)])
 
-    def raised(block: Matrix3, value: float) -> Any:
-        return block[:place] + (block[place] + value,) + block[after:]  # noqa: RUF005 - compiled code knows no star
+    def add_entry(m: Any, value: float) -> Any:
+        return add_products(there, m, value, 1.0)
 
-    def add_angular(m: Matrix6, value: float) -> Matrix6:
-        return Matrix6(raised(m.angular, value), m.angular_linear, m.linear_angular, m.linear)
-
-    def add_angular_linear(m: Matrix6, value: float) -> Matrix6:
-        return Matrix6(m.angular, raised(m.angular_linear, value), m.linear_angular, m.linear)
-
-    def add_linear_angular(m: Matrix6, value: float) -> Matrix6:
-        return Matrix6(m.angular, m.angular_linear, raised(m.linear_angular, value), m.linear)
-
-    def add_linear(m: Matrix6, value: float) -> Matrix6:
-        return Matrix6(m.angular, m.angular_linear, m.linear_angular, raised(m.linear, value))
-
-    if row < 3:
-        return add_angular if column < 3 else add_angular_linear
-    return add_linear_angular if column < 3 else add_linear
-
-
-@functools.cache
-def make_column_to_column(source: int, target: int) -> Callable[[Matrix6, float, Matrix6], Matrix6]:
-    """Return (m, s, a) -> m with s times a column of a added to a column of m."""
-    p, q = source % 3, target % 3
-    p_middle, p_low, q_middle, q_low = p + 3, p + 6, q + 3, q + 6
-    after_top, after_middle, after_low = q + 1, q + 4, q + 7
-
-    def raised(block: Matrix3, s: float, a: Matrix3) -> Any:
-        top = block[:q] + (block[q] + s * a[p],)  # noqa: RUF005 - compiled code knows no star
-        middle = block[after_top:q_middle] + (block[q_middle] + s * a[p_middle],)  # noqa: RUF005
-        low = block[after_middle:q_low] + (block[q_low] + s * a[p_low],)  # noqa: RUF005
-        return top + middle + low + block[after_low:]
-
-    def angular_column(a: Matrix6) -> tuple[Matrix3, Matrix3]:
-        return (a.angular, a.linear_angular)
-
-    def linear_column(a: Matrix6) -> tuple[Matrix3, Matrix3]:
-        return (a.angular_linear, a.linear)
-
-    column_of = angular_column if source < 3 else linear_column
-
-    def add_to_angular(m: Matrix6, s: float, a: Matrix6) -> Matrix6:
-        above, below = column_of(a)
-        return Matrix6(
-            raised(m.angular, s, above), m.angular_linear, raised(m.linear_angular, s, below), m.linear
-        )
-
-    def add_to_linear(m: Matrix6, s: float, a: Matrix6) -> Matrix6:
-        above, below = column_of(a)
-        return Matrix6(
-            m.angular, raised(m.angular_linear, s, above), m.linear_angular, raised(m.linear, s, below)
-        )
-
-    return add_to_angular if target < 3 else add_to_linear
-
-
-@functools.cache
-def make_row_to_row(source: int, target: int) -> Callable[[Matrix6, float, Matrix6], Matrix6]:
-    """Return (m, s, a) -> m with s times a row of a added to a row of m."""
-    p, q = 3 * (source % 3), 3 * (target % 3)
-    p_end, q_end = p + 3, q + 3
-
-    def raised(block: Matrix3, s: float, a: Matrix3) -> Any:
-        before: Any = block[q:q_end]
-        added: Any = a[p:p_end]
-        return block[:q] + add_scaled(before, s, added) + block[q_end:]
-
-    def angular_row(a: Matrix6) -> tuple[Matrix3, Matrix3]:
-        return (a.angular, a.angular_linear)
-
-    def linear_row(a: Matrix6) -> tuple[Matrix3, Matrix3]:
-        return (a.linear_angular, a.linear)
-
-    row_of = angular_row if source < 3 else linear_row
-
-    def add_to_angular(m: Matrix6, s: float, a: Matrix6) -> Matrix6:
-        left, right = row_of(a)
-        return Matrix6(
-            raised(m.angular, s, left), raised(m.angular_linear, s, right), m.linear_angular, m.linear
-        )
-
-    def add_to_linear(m: Matrix6, s: float, a: Matrix6) -> Matrix6:
-        left, right = row_of(a)
-        return Matrix6(
-            m.angular, m.angular_linear, raised(m.linear_angular, s, left), raised(m.linear, s, right)
-        )
-
-    return add_to_angular if target < 3 else add_to_linear
+    return add_entry
 
 
 def scaled_columns(m: Matrix6, d: Spatial) -> Matrix6:

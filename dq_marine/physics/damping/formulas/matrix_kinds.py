@@ -11,7 +11,7 @@ import functools
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
-from dq_marine.algebra.nesting import folded
+from dq_marine.algebra.entries import Places, add_products
 from dq_marine.algebra.spatial import (
     Matrix6,
     Spatial,
@@ -30,15 +30,7 @@ from dq_marine.physics.damping.formulas.diagonal import (
     full_sandwich,
     full_slope,
 )
-from dq_marine.physics.damping.formulas.matrix_entries import (
-    make_column_to_column,
-    make_component,
-    make_component_addition,
-    make_entry_addition,
-    make_row_to_row,
-    scaled_columns,
-    scaled_rows,
-)
+from dq_marine.physics.damping.formulas.matrix_entries import entry_place, scaled_columns, scaled_rows
 
 Place: TypeAlias = tuple[int, int]
 """Row and column, each from 0 to 5, the angular part first."""
@@ -50,14 +42,14 @@ class MatrixKind(NamedTuple):
     """The operations on one kind of matrix.
 
     own_at(damping, twist) is the linear part and the quadratic diagonal at a twist; own_slope(damping, twist) is the
-    derivative of their drag, always with all 36 numbers; diagonal(D) is the diagonal; make_entry_addition(row, column)
-    returns (D, value) -> D with a value added to one entry; the others are those of a `DampingAlgebra`.
+    derivative of their drag, always with all 36 numbers; diagonal(D) is the diagonal; place(row, column) is where an
+    entry stands among the numbers of D; the others are those of a `DampingAlgebra`.
     """
 
     own_at: Callable[..., Any]
     own_slope: Callable[..., Matrix6]
     diagonal: Callable[..., Spatial]
-    make_entry_addition: Callable[[int, int], Callable[..., Any]]
+    place: Callable[[int, int], int]
     apply: Callable[..., Spatial]
     add_scaled: Callable[..., Matrix6]
     sandwich: Callable[..., Matrix6]
@@ -74,7 +66,7 @@ FULL_MATRIX = MatrixKind(
     own_at=full_at,
     own_slope=full_slope,
     diagonal=matrix6_diagonal,
-    make_entry_addition=make_entry_addition,
+    place=entry_place,
     apply=matrix6_transform,
     add_scaled=matrix6_add_scaled,
     sandwich=full_sandwich,
@@ -96,102 +88,35 @@ def sparse_diagonal(d: SparseMatrix) -> Spatial:
 def sparse_matrix(places: tuple[Place, ...]) -> MatrixKind:
     """Return the operations on a diagonal with numbers at the given places beside it."""
     nothing = (0.0,) * len(places)
+    numbered = [(index, row, column) for index, (row, column) in enumerate(places)]
+    drags = Places((row, index, column) for index, row, column in numbered)
+    entries = Places((entry_place(row, column), 0, index) for index, row, column in numbered)
+    # A number beside the diagonal takes a column of m to another in m D, and a row of m to another in D m.
+    columns = Places(
+        (entry_place(i, column), index, entry_place(i, row))
+        for index, row, column in numbered
+        for i in range(6)
+    )
+    rows = Places(
+        (entry_place(row, j), index, entry_place(column, j))
+        for index, row, column in numbered
+        for j in range(6)
+    )
+
+    def place(row: int, column: int) -> int:
+        return row if row == column else 6 + places.index((row, column))
 
     def own_at(damping: DiagonalDamping, twist: Spatial) -> SparseMatrix:
         return SparseMatrix(diagonal_at(damping, twist), nothing)
 
-    def make_sparse_addition(row: int, column: int) -> Callable[..., SparseMatrix]:
-        if row == column:
-            add_component = make_component_addition(row)
-
-            def add_to_diagonal(d: SparseMatrix, value: float) -> SparseMatrix:
-                return SparseMatrix(add_component(d.diagonal, value), d.beside)
-
-            return add_to_diagonal
-        place = places.index((row, column))
-        after = place + 1
-
-        def add_beside(d: SparseMatrix, value: float) -> SparseMatrix:
-            before, rest = d.beside[:place], d.beside[after:]
-            return SparseMatrix(d.diagonal, before + (d.beside[place] + value,) + rest)  # noqa: RUF005
-
-        return add_beside
-
-    numbered = tuple(enumerate(places))
-    add_drags = folded(link_drag, numbered, no_more_drag)
-    add_numbers = folded(link_number, numbered, no_more_numbers)
-    add_columns = folded(link_columns, numbered, no_more_products)
-    add_rows = folded(link_rows, numbered, no_more_products)
-
     def apply(d: SparseMatrix, twist: Spatial) -> Spatial:
-        return add_drags(d.beside, twist, spatial_multiply_elementwise(d.diagonal, twist))
+        return add_products(drags, spatial_multiply_elementwise(d.diagonal, twist), d.beside, twist)
 
     def add_scaled_sparse(m: Matrix6, s: float, d: SparseMatrix) -> Matrix6:
-        return add_numbers(d.beside, s, diagonal_add_scaled(m, s, d.diagonal))
+        return add_products(entries, diagonal_add_scaled(m, s, d.diagonal), s, d.beside)
 
     def sandwich(d: SparseMatrix, m: Matrix6) -> Matrix6:
-        right = add_columns(d.beside, m, scaled_columns(m, d.diagonal))
-        return add_rows(d.beside, right, scaled_rows(d.diagonal, right))
+        right = add_products(columns, scaled_columns(m, d.diagonal), d.beside, m)
+        return add_products(rows, scaled_rows(d.diagonal, right), d.beside, right)
 
-    return MatrixKind(
-        own_at, sparse_own_slope, sparse_diagonal, make_sparse_addition, apply, add_scaled_sparse, sandwich
-    )
-
-
-def no_more_drag(beside: Any, twist: Spatial, drag: Spatial) -> Spatial:
-    """Return the drag as it is."""
-    return drag
-
-
-def no_more_numbers(beside: Any, s: float, m: Matrix6) -> Matrix6:
-    """Return the matrix as it is."""
-    return m
-
-
-def no_more_products(beside: Any, m: Matrix6, product: Matrix6) -> Matrix6:
-    """Return the product as it is."""
-    return product
-
-
-def link_drag(numbered: tuple[int, Place], rest: Callable[..., Spatial]) -> Callable[..., Spatial]:
-    """Return (beside, twist, drag) -> the drag with that of one number and of the rest."""
-    index, (row, column) = numbered
-    add_component, component = make_component_addition(row), make_component(column)
-
-    def add_drag(beside: Any, twist: Spatial, drag: Spatial) -> Spatial:
-        return rest(beside, twist, add_component(drag, beside[index] * component(twist)))
-
-    return add_drag
-
-
-def link_number(numbered: tuple[int, Place], rest: Callable[..., Matrix6]) -> Callable[..., Matrix6]:
-    """Return (beside, s, m) -> m with s times one number and the rest."""
-    index, (row, column) = numbered
-    add_entry = make_entry_addition(row, column)
-
-    def add_number(beside: Any, s: float, m: Matrix6) -> Matrix6:
-        return rest(beside, s, add_entry(m, s * beside[index]))
-
-    return add_number
-
-
-def link_columns(numbered: tuple[int, Place], rest: Callable[..., Matrix6]) -> Callable[..., Matrix6]:
-    """Return (beside, m, product) -> m D from its part by the diagonal: one number takes a column of m to another."""
-    index, (row, column) = numbered
-    add_column = make_column_to_column(row, column)
-
-    def add_columns(beside: Any, m: Matrix6, product: Matrix6) -> Matrix6:
-        return rest(beside, m, add_column(product, beside[index], m))
-
-    return add_columns
-
-
-def link_rows(numbered: tuple[int, Place], rest: Callable[..., Matrix6]) -> Callable[..., Matrix6]:
-    """Return (beside, m, product) -> D m from its part by the diagonal: one number takes a row of m to another."""
-    index, (row, column) = numbered
-    add_row = make_row_to_row(column, row)
-
-    def add_rows(beside: Any, m: Matrix6, product: Matrix6) -> Matrix6:
-        return rest(beside, m, add_row(product, beside[index], m))
-
-    return add_rows
+    return MatrixKind(own_at, sparse_own_slope, sparse_diagonal, place, apply, add_scaled_sparse, sandwich)
