@@ -276,7 +276,7 @@ def first_lanes(typing_context: Any, structure: Any) -> Any:
     return signature(result, structure), generate
 
 
-MOST_CASES = 8
+MOST_CASES = 4
 """As many cases of one body are computed at a time: doubles in the widest vector of a processor."""
 
 
