@@ -23,7 +23,7 @@ class LinkedLibrary(JITCodeLibrary):
     """LLVM's text of a function and of all that it calls, optimised, to be linked into that of its callers."""
 
     def _optimize_functions(self, module: Any) -> None:
-        """Optimise what a function's text defines. Numba goes over what it only declares, too, which is most of it."""
+        """Optimise what a function's text defines. Numba goes over what it only declares, too."""
         module.data_layout = self._codegen._data_layout
         for function in module.functions:
             if not function.is_declaration:
@@ -46,7 +46,7 @@ class LeanCounts(NRTContext):
     """Numba's counting of references, which does not look through all numbers of a structure for none to count.
 
     Numba itself writes LLVM's text that takes out every number whenever a structure is passed on, for LLVM to strike:
-    two thirds of the text of a step.
+    two fifths of the instructions that an environment's step is written in.
     """
 
     def get_meminfos(self, builder: Any, kind: Any, value: Any) -> list[Any]:
