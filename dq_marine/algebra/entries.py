@@ -5,10 +5,9 @@ A number's place in (nested tuples of) numbers is counted depth first, from 0.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any, TypeVar, cast
 
-from dq_marine.algebra.nesting import alike
+from dq_marine.algebra.nesting import numbers_of, rebuild
 
 Target = TypeVar("Target")
 
@@ -28,23 +27,7 @@ def add_products(places: Places, target: Target, first: Any, second: Any) -> Tar
         first: (nested tuples of) numbers, or one number.
         second: likewise.
     """
-    numbers, left, right = list(_numbers(target)), list(_numbers(first)), list(_numbers(second))
+    numbers, left, right = list(numbers_of(target)), list(numbers_of(first)), list(numbers_of(second))
     for place, i, j in places:
         numbers[place] = numbers[place] + left[i] * right[j]
-    return cast(Target, _rebuilt(target, iter(numbers)))
-
-
-def _numbers(structure: Any) -> Iterator[Any]:
-    """Yield the numbers of nested tuples, depth first."""
-    if isinstance(structure, tuple):
-        for part in structure:
-            yield from _numbers(part)
-    else:
-        yield structure
-
-
-def _rebuilt(like: Any, numbers: Iterator[Any]) -> Any:
-    """Return nested tuples like these, of the given numbers."""
-    if isinstance(like, tuple):
-        return alike(like, [_rebuilt(part, numbers) for part in like])
-    return next(numbers)
+    return cast(Target, rebuild(target, iter(numbers)))

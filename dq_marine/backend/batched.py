@@ -11,14 +11,15 @@ whose components are NumPy arrays as it is: the components broadcast. A function
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numba import types
 
+from dq_marine.algebra.nesting import numbers_of, rebuild
 from dq_marine.backend.compilation import compile_function
-from dq_marine.backend.packing import make_load, pack, rebuild, store, structure_type, unpack
+from dq_marine.backend.packing import make_load, pack, store, structure_type, unpack
 
 
 def batched(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -34,7 +35,7 @@ def batched(function: Callable[..., Any]) -> Callable[..., Any]:
 
     @functools.wraps(function)
     def on_arrays(*arguments: Any) -> Any:
-        components = np.broadcast_arrays(*(np.asarray(c, dtype=np.float64) for c in _components(arguments)))
+        components = np.broadcast_arrays(*(np.asarray(c, dtype=np.float64) for c in numbers_of(arguments)))
         shape = components[0].shape
         numbers = np.stack([component.ravel() for component in components], axis=1)
         # One call in plain Python tells how the result is nested, of zeros if there is no entry to try.
@@ -57,12 +58,3 @@ def _compiled(function: Callable[..., Any], layout: types.Type) -> Callable[...,
             store(results[row], function(*load(numbers[row])))
 
     return compile_function(apply_to_rows, str(layout))
-
-
-def _components(structure: Any) -> Iterator[Any]:
-    """Yield the components of nested tuples, numbers or arrays, depth first."""
-    if isinstance(structure, tuple):
-        for part in structure:
-            yield from _components(part)
-    else:
-        yield structure

@@ -17,7 +17,7 @@ from numba.extending import intrinsic, models, register_model, typeof_impl
 from dq_marine.algebra.entries import Places, add_products
 from dq_marine.backend.packing import leaf_types, leaves
 from dq_marine.backend.selection import provide
-from dq_marine.backend.stage_layout import rebuilt
+from dq_marine.backend.stage_layout import mapped, rebuilt
 
 
 class PlacesType(types.Type):
@@ -79,14 +79,6 @@ def with_products(arithmetic: _Arithmetic, places: Places, *structures: list[_Nu
     return numbers
 
 
-def with_leaves(kind: types.Type, kinds: Any) -> types.Type:
-    """Return the type of nested tuples whose numbers are of these types."""
-    if not isinstance(kind, types.BaseTuple):
-        return next(kinds)
-    named = getattr(kind, "instance_class", None)
-    return types.BaseTuple.from_types(tuple(with_leaves(part, kinds) for part in kind.types), named)
-
-
 @intrinsic
 def products_added(typing_context: Any, places: Any, target: Any, first: Any, second: Any) -> Any:
     """(Nested tuples of) numbers with products added to some of them."""
@@ -95,7 +87,8 @@ def products_added(typing_context: Any, places: Any, target: Any, first: Any, se
         [_Number(leaf, None) for leaf in map(types.unliteral, leaf_types(kind))] for kind in structures
     ]
     sums = with_products(_Arithmetic(typing_context), places.places, *numbers)
-    result = with_leaves(target, iter([number.kind for number in sums]))
+    kinds = iter(sums)
+    result = mapped(target, lambda _: next(kinds).kind)
 
     def generate(context: Any, builder: Any, sig: Any, values: Any) -> Any:
         found = [

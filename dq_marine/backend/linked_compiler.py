@@ -96,7 +96,7 @@ def is_plain(kind: types.Type) -> bool:
 
 
 class LinkedCompiler(CompilerBase):
-    """Numba's compiler, with that lowering."""
+    """Numba's compiler, with the passes and the counts of `linked_passes`."""
 
     def __init__(self, *arguments: Any) -> None:
         super().__init__(*arguments)

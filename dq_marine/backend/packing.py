@@ -8,7 +8,6 @@ forth, resolved while compiling into plain loads and stores.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
-from dq_marine.algebra.nesting import alike
+from dq_marine.algebra.nesting import alike, rebuild
 from dq_marine.algebra.table import Table
 from dq_marine.backend.table_type import TableType
 
@@ -74,15 +73,6 @@ class Unpacker:
 def unpack_columns(like: Any, rows: NDArray[np.float64]) -> Any:
     """Return nested tuples shaped as `like`, with the columns of `rows` as their components."""
     return rebuild(like, iter(rows.T))
-
-
-def rebuild(like: Any, components: Iterator[Any]) -> Any:
-    """Return nested tuples shaped as `like`, of the given components, depth first."""
-    if not isinstance(like, tuple):
-        return next(components)
-    if isinstance(like, Table):  # of a sea, some thousands: all at once
-        return Table(islice(components, len(like)))
-    return alike(like, [rebuild(part, components) for part in like])
 
 
 def structure_type(structure: Any) -> types.Type:

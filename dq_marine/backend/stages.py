@@ -277,7 +277,11 @@ def first_lanes(typing_context: Any, structure: Any) -> Any:
 
 
 MOST_CASES = 4
-"""As many cases of one body are computed at a time: doubles in the widest vector of a processor."""
+"""As many cases of one body are computed at a time: doubles in a vector of 256 bits.
+
+Wider vectors slow down what is computed beside them on some processors: of a step on an Intel Xeon (Emerald Rapids)
+twelve stages of a thrust took 170 ns by eights, and take 35 by fours (docs/theory.md, "What is known ahead").
+"""
 
 
 @provide(stages.for_each)

@@ -89,5 +89,6 @@ def test_an_error_says_which_line_is_wrong():
     def caller(number):
         return wrong(number)
 
-    with pytest.raises(TypingError, match="no_such_field"):
+    with pytest.raises(TypingError, match="no_such_field") as refused:
         caller(1.0)
+    assert "return number.no_such_field" in str(refused.value)
