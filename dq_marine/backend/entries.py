@@ -1,7 +1,7 @@
 """`algebra.entries.add_products` in compiled code: the places are part of a type, and every product is written out.
 
-One function takes the place of one for each product, which LLVM would join into the same instructions: the step of a
-vehicle with eight couplings compiles in a seventh less time.
+One function replaces one for each product. The instructions are the same, and the step of a vehicle with eight
+couplings compiles in a seventh less time.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The parts of Numba's compiler that `linked_compiler` puts in place of Numba's own.
 
-Each leaves out what functions that only go into others do not need. Of what is left out nothing changes what is
-computed, nor the instructions that the whole becomes.
+Each leaves out what functions that only go into others do not need. What is computed stays the same, and so do the
+instructions that the whole becomes.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ def owns_memory(model: Any) -> bool:
 
 
 class LeanCounts(NRTContext):
-    """Numba's counting of references, which does not look through all numbers of a structure for none to count.
+    """Counts references as Numba does, but does not search structures that hold no memory.
 
-    Numba itself writes LLVM's text that takes out every number whenever a structure is passed on, for LLVM to strike:
+    Whenever a structure is passed on, Numba itself writes text that takes out every number, which LLVM removes again:
     two fifths of the instructions that an environment's step is written in.
     """
 
