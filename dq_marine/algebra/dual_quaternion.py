@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from dq_marine.algebra.quaternion import (
     Quaternion,
+    excess_of_length,
     quaternion_add,
     quaternion_conjugate,
     quaternion_dot,
@@ -114,13 +115,10 @@ def pose_renormalise(pose: DualQuaternion) -> DualQuaternion:
     """Return the pose with the round-off of one step removed from both unit constraints.
 
     One Newton step of 1/sqrt towards |real| = 1 (quadratic, so exact for an error of 1e-8), then the part of
-    `dual` along `real` is dropped. Neither moves the position, 2 dual real*. The excess |real|^2 - 1 is summed around
-    zero, not around one, where floating-point numbers lie closer together below than above: a million steps would
-    show the bias.
+    `dual` along `real` is dropped. Neither moves the position, 2 dual real*.
     """
     q = pose.real
-    excess = ((q[0] * q[0] - 1.0) + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
-    correction = -0.5 * excess
+    correction = -0.5 * excess_of_length(q)
     real = quaternion_add(q, quaternion_scale(correction, q))
     dual = quaternion_add(pose.dual, quaternion_scale(correction, pose.dual))
     along = quaternion_dot(real, dual)

@@ -67,6 +67,26 @@ def rotate_inverse(q: Quaternion, a: Vector3) -> Vector3:
     return rotate(quaternion_conjugate(q), a)
 
 
+def excess_of_length(q: Quaternion) -> float:
+    """Return |q|^2 - 1 of a q that is nearly of unit length.
+
+    It is summed around zero, not around one, where floating-point numbers lie closer together below than above: a
+    million steps would show the bias.
+    """
+    return ((q[0] * q[0] - 1.0) + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
+
+
+def rotate_scaled(q: Quaternion, excess: float, a: Vector3) -> Vector3:
+    """Return q a q*/|q|^2: a rotation by a q that is nearly of unit length, with |q|^2 - 1.
+
+    The excess is taken from a product, not from 2, next to which numbers lie closer together below than above.
+    """
+    axis = (q[1], q[2], q[3])
+    twice = scale(2.0, cross(axis, a))
+    twice = add_scaled(twice, -excess, twice)
+    return add(add_scaled(a, q[0], twice), cross(axis, twice))
+
+
 def world_down_in_body(q: Quaternion) -> Vector3:
     """Return the world's z axis (down, in NED) in the body frame of the unit quaternion q."""
     return (

@@ -22,7 +22,12 @@ from dq_marine.algebra.dual_quaternion import (
 )
 from dq_marine.algebra.frames import momentum_bracket
 from dq_marine.algebra.matrix3 import Matrix3, has_negative_real_eigenvalue, invert, transform
-from dq_marine.algebra.quaternion import Quaternion, rotate, rotate_inverse
+from dq_marine.algebra.quaternion import (
+    Quaternion,
+    excess_of_length,
+    quaternion_conjugate,
+    rotate_scaled,
+)
 from dq_marine.algebra.selection import by_precision, negation, select, some, spread
 from dq_marine.algebra.spatial import Spatial, quadratic_form, spatial_scale
 from dq_marine.algebra.vector3 import Vector3, add, clamp, cross, dot, subtract
@@ -139,11 +144,14 @@ def transport_momentum(
     b' = R_f^T b and a' = R_f^T (a - l x b), with l the displacement in the body frame before: the spatial momentum is
     kept whatever the solver left over. R_f is taken as the rotation from the old attitude to the new, through the
     world: the rounding errors of a steady motion's constant R_f would add up over a million steps, these average out.
+    Attitudes whose length is off by round-off, mostly to one side, would stretch the momentum: they are divided out.
     """
     angular = subtract(momentum.angular, cross(displacement_body, momentum.linear))
+    there, back = excess_of_length(before), excess_of_length(after)
+    away = quaternion_conjugate(after)
     return Spatial(
-        rotate_inverse(after, rotate(before, angular)),
-        rotate_inverse(after, rotate(before, momentum.linear)),
+        rotate_scaled(away, back, rotate_scaled(before, there, angular)),
+        rotate_scaled(away, back, rotate_scaled(before, there, momentum.linear)),
     )
 
 

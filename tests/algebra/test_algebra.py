@@ -27,6 +27,15 @@ def test_rotation_agrees_with_scipy_and_composes(p, q, a):
     assert np.allclose(qt.rotate(qt.quaternion_scale(-1.0, q), a), qt.rotate(q, a), **CLOSE)
 
 
+@given(unit_quaternions, vectors, st.floats(-1e-9, 1e-9))
+def test_a_length_that_is_nearly_one_is_divided_out(q, a, excess):
+    longer = qt.quaternion_scale(1.0 + 0.5 * excess, q)
+    found = qt.excess_of_length(longer)
+    assert abs(found - excess) < 1e-15
+    size = 1.0 + np.abs(a).max()
+    assert np.allclose(qt.rotate_scaled(longer, found, a), qt.rotate(q, a), rtol=0.0, atol=4e-15 * size)
+
+
 @given(unit_quaternions)
 def test_down_is_the_third_row_of_the_rotation_matrix(q):
     assert np.allclose(qt.world_down_in_body(q), rotation(q).as_matrix()[2], **CLOSE)

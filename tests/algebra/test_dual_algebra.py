@@ -110,6 +110,8 @@ ARITHMETIC = (
     (qt.quaternion_vector, "q"),
     (qt.rotate, "qv"),
     (qt.rotate_inverse, "qv"),
+    (qt.rotate_scaled, "qsv"),
+    (qt.excess_of_length, "q"),
     (qt.rotation_matrix, "q"),
     (qt.world_down_in_body, "q"),
     (dq.dual_add, "pp"),

@@ -13,11 +13,17 @@ from dq_marine.integrator.step import REFUSALS
 seeds = st.integers(0, 2**32 - 1)
 
 
-@pytest.mark.parametrize("scheme", sweep(["midpoint", "paper"], plain=["midpoint"]))
-def test_a_million_free_steps(scheme):
+@pytest.mark.parametrize(
+    ("scheme", "order", "h"),
+    sweep(
+        [("midpoint", 2, 0.02), ("paper", 2, 0.02), ("galerkin", 8, 0.1), ("gauss", 8, 0.1)],
+        plain=[("midpoint", 2, 0.02)],
+    ),
+)
+def test_a_million_free_steps(scheme, order, h):
     """Spatial momentum to 1e-12 relative, energy without drift, both unit constraints to 1e-12."""
     rng = np.random.default_rng(12)
-    body = make_body(random_inertia(rng), 0.02, scheme=scheme)
+    body = make_body(random_inertia(rng), h, scheme=scheme, order=order)
     velocity = rng.normal(size=6)
     body.reset(rng.normal(size=3), random_quaternion(rng), velocity)
     momentum, energy = body.spatial_momentum, body.kinetic_energy
@@ -25,7 +31,7 @@ def test_a_million_free_steps(scheme):
     for _ in range(200):
         body.step(steps=5000)
         spread.append(body.kinetic_energy / energy - 1.0)
-        # Angular momentum about the world origin, from which the body drifts away for 20,000 s.
+        # Angular momentum about the world origin, from which the body drifts away for 20,000 s or more.
         reach = np.linalg.norm(momentum) * (1.0 + np.linalg.norm(body.position_ned))
         worst = max(
             worst, np.abs(body.spatial_momentum[:3] - momentum[:3]).max() / np.linalg.norm(momentum[:3])
@@ -35,7 +41,7 @@ def test_a_million_free_steps(scheme):
     assert worst < 1e-12
     first, last = np.array(spread[:50]), np.array(spread[150:])
     assert np.abs(spread).max() < 0.01
-    assert abs(last.mean() - first.mean()) < 0.2 * np.ptp(spread)
+    assert abs(last.mean() - first.mean()) < max(0.2 * np.ptp(spread), 1e-10)  # high orders: round-off
     real, dual = body.pose_body_to_ned[:4], body.pose_body_to_ned[4:]
     assert abs(real @ real - 1.0) < 1e-12
     assert abs(real @ dual) < 1e-12 * np.linalg.norm(dual)
