@@ -76,6 +76,14 @@ def excess_of_length(q: Quaternion) -> float:
     return ((q[0] * q[0] - 1.0) + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
 
 
+def quaternion_renormalise(q: Quaternion) -> Quaternion:
+    """Return q with the round-off removed from its length.
+
+    One Newton step of 1/sqrt towards |q| = 1: quadratic, so exact for an error of 1e-8.
+    """
+    return quaternion_add(q, quaternion_scale(-0.5 * excess_of_length(q), q))
+
+
 def rotate_scaled(q: Quaternion, excess: float, a: Vector3) -> Vector3:
     """Return q a q*/|q|^2: a rotation by a q that is nearly of unit length, with |q|^2 - 1.
 

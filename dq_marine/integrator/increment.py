@@ -14,6 +14,7 @@ from dq_marine.algebra.quaternion import (
     quaternion_dot,
     quaternion_from_vector,
     quaternion_multiply,
+    quaternion_renormalise,
     quaternion_scale,
     rotate_inverse,
 )
@@ -247,10 +248,13 @@ def renormalised(increment: Increment) -> Increment:
 
     A product of many is off by round-off, mostly to one side: the momentum that it carries would shrink, run by run.
     """
-    return Increment(unit(increment.rotation), increment.shift)
+    return Increment(quaternion_renormalise(increment.rotation), increment.shift)
 
 
 def as_pose(increment: Increment) -> DualQuaternion:
-    """Return the increment as a dual quaternion q + eps (1/2) q s."""
-    dual = quaternion_scale(0.5, turned(increment.rotation, increment.shift))
-    return DualQuaternion(increment.rotation, dual)
+    """Return the increment as a unit dual quaternion q + eps (1/2) q s.
+
+    The corrections (G6), (G10) leave a length that is off by round-off, again mostly to one side: it is removed.
+    """
+    rotation = quaternion_renormalise(increment.rotation)
+    return DualQuaternion(rotation, quaternion_scale(0.5, turned(rotation, increment.shift)))

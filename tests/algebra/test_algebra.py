@@ -32,6 +32,7 @@ def test_a_length_that_is_nearly_one_is_divided_out(q, a, excess):
     longer = qt.quaternion_scale(1.0 + 0.5 * excess, q)
     found = qt.excess_of_length(longer)
     assert abs(found - excess) < 1e-15
+    assert abs(qt.excess_of_length(qt.quaternion_renormalise(longer))) < 1e-15
     size = 1.0 + np.abs(a).max()
     assert np.allclose(qt.rotate_scaled(longer, found, a), qt.rotate(q, a), rtol=0.0, atol=4e-15 * size)
 

@@ -112,6 +112,7 @@ ARITHMETIC = (
     (qt.rotate_inverse, "qv"),
     (qt.rotate_scaled, "qsv"),
     (qt.excess_of_length, "q"),
+    (qt.quaternion_renormalise, "q"),
     (qt.rotation_matrix, "q"),
     (qt.world_down_in_body, "q"),
     (dq.dual_add, "pp"),
