@@ -1,6 +1,6 @@
 """The curves that the sweeps of a Galerkin step begin with: nearly those of Kirchhoff's equations in the body frame.
 
-Sweeps of Kirchhoff's equations, with Gauss's matrix A, cost a third of a Galerkin step's own or less,
+Sweeps of Kirchhoff's equations, with Gauss's matrix A, cost two thirds of a Galerkin step's own or less,
 
     y_j = c + sum_i A_ji (ad*_(W y_i) y_i + F_i),   Gamma_j = gamma_j (W y_j)_angular                  (V9)
 
