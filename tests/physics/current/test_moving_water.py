@@ -272,17 +272,21 @@ def test_a_neutral_body_drifts_with_a_changing_current():
 
 
 def test_time_runs_backwards_in_a_profile():
+    """The motion is chaotic: of one start in seven round-off grows beyond 1e-11 in 400 steps, of most it does not."""
     forwards, backwards = (
         make_body(np.diag([3.0, 5.0, 6.0, 1.0, 2.0, 2.5]), h, current=profile_water(LAYERS))
         for h in (0.05, -0.05)
     )
-    rng = np.random.default_rng(3)
-    forwards.reset(*start(rng))
-    begin = forwards.get_state()
-    forwards.step(steps=200)
-    backwards.set_state(forwards.get_state())
-    backwards.step(steps=200)
-    assert np.abs(backwards.get_state() - begin).max() < 1e-11
+    rng, missed = np.random.default_rng(3), []
+    for _ in range(40):
+        forwards.reset(*start(rng))
+        begin = forwards.get_state()
+        forwards.step(steps=200)
+        backwards.set_state(forwards.get_state())
+        backwards.step(steps=200)
+        missed.append(np.abs(backwards.get_state() - begin).max())
+    assert np.median(missed) < 5e-12
+    assert max(missed) < 1e-8
 
 
 METHODS = [("midpoint", 2), ("gauss", 8), ("galerkin", 4), ("runge_kutta", 8)]
