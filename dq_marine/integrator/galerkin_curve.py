@@ -30,6 +30,7 @@ from dq_marine.algebra.quaternion import (
     quaternion_conjugate,
     quaternion_dot,
     quaternion_multiply,
+    quaternion_renormalise,
     quaternion_scale,
     quaternion_subtract,
     quaternion_vector,
@@ -84,6 +85,14 @@ def turned_back(q: Quaternion, twice_gain: float, a: Vector3) -> Vector3:
 def attitude_from(half_sum: Quaternion) -> Quaternion:
     """Return gamma from half the sum of Gamma (V1)."""
     return (1.0 + half_sum[0], half_sum[1], half_sum[2], half_sum[3])
+
+
+def last_attitude_from(half_sum: Quaternion) -> Quaternion:
+    """Return gamma at the step's end from half the sum of Gamma, (V6), whose length is 1.
+
+    What the sweeps leave of that is round-off, but of one sign, which would add up over many steps: it is removed.
+    """
+    return quaternion_renormalise(attitude_from(half_sum))
 
 
 def momentum_from(a: Vector3, half_sum: Quaternion) -> Quaternion:

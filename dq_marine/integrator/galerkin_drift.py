@@ -17,13 +17,13 @@ from dq_marine.algebra.dual_quaternion import (
     pose_from_parts,
     pose_renormalise,
 )
-from dq_marine.algebra.quaternion import quaternion_renormalise, quaternion_scale
+from dq_marine.algebra.quaternion import quaternion_scale
 from dq_marine.algebra.spatial import Spatial, matrix6_transform, quadratic_form, spatial_scale
 from dq_marine.algebra.stages import each_stage, stage_product, stage_sum
 from dq_marine.integrator.collocation import gauss, half_matrix
 from dq_marine.integrator.drift import Drift, transport_momentum
 from dq_marine.integrator.drift_report import DriftReport, is_energy_kept
-from dq_marine.integrator.galerkin_curve import Node, attitude_from, make_node_at, travelled
+from dq_marine.integrator.galerkin_curve import Node, last_attitude_from, make_node_at, travelled
 from dq_marine.integrator.galerkin_first_curve import make_first_nodes
 from dq_marine.integrator.galerkin_sweeps import make_sweeps, relative_change_squared, scales_of
 from dq_marine.integrator.inertia import Inertia
@@ -49,9 +49,7 @@ def make_galerkin_drift(stages: int) -> Drift:
         nothing = spatial_scale(0.0, start)
         scales = scales_of(inverse, start, matrix6_transform(inverse, start), nothing)
         node, report = sweeps((inverse, start), first_nodes(inverse, start), scales)
-        # What the sweeps leave at round-off is of one sign over many steps: (V6) keeps the length but for that.
-        turn = attitude_from(quaternion_scale(0.5, stage_sum(weights, node.rates.turning)))
-        turn = quaternion_renormalise(turn)
+        turn = last_attitude_from(quaternion_scale(0.5, stage_sum(weights, node.rates.turning)))
         way = stage_sum(weights, each_stage(weights, travelled, (node.attitude, node.velocity)))
         moved = pose_renormalise(dual_multiply(pose, pose_from_parts(turn, way)))
         carried = transport_momentum(pose.real, moved.real, way, momentum)  # (V7)

@@ -14,7 +14,7 @@ from dq_marine.algebra.dual_quaternion import (
     pose_from_parts,
     pose_renormalise,
 )
-from dq_marine.algebra.quaternion import quaternion_renormalise, quaternion_scale
+from dq_marine.algebra.quaternion import quaternion_scale
 from dq_marine.algebra.selection import spread
 from dq_marine.algebra.spatial import (
     Spatial,
@@ -27,7 +27,7 @@ from dq_marine.algebra.vector3 import dot, scale, subtract
 from dq_marine.integrator.collocation import Collocation, half_matrix
 from dq_marine.integrator.drift import transport_momentum
 from dq_marine.integrator.drift_report import DriftReport
-from dq_marine.integrator.galerkin_curve import attitude_from, change_squared
+from dq_marine.integrator.galerkin_curve import change_squared, last_attitude_from
 from dq_marine.integrator.galerkin_first_curve import make_first_forced_nodes
 from dq_marine.integrator.galerkin_forced_curve import (
     Flight,
@@ -86,8 +86,7 @@ def make_forced_step(method: Collocation, forces_at: StageForces, carry: WaterCa
         first = first_nodes(flight, twist, acting)
         node, report = sweeps(flight, first, scales_of(inverse, start, twist, acting))
         sums = stage_sum(weights, node.rates)
-        # What the sweeps leave at round-off is of one sign over many steps: (V6) keeps the length but for that.
-        turn = quaternion_renormalise(attitude_from(quaternion_scale(0.5, sums.turning)))
+        turn = last_attitude_from(quaternion_scale(0.5, sums.turning))
         way = scale(0.5, sums.travelling)
         impulse = Spatial(stage_sum(weights, node.moment), scale(0.5, sums.pushing))
         moved = pose_renormalise(dual_multiply(pose, pose_from_parts(turn, way)))
