@@ -47,6 +47,10 @@ def draw(rows: Rows) -> Any:
         draw_panel(axes, find(rows, scene=scene, method=method))
         axes.set_title(f"{scene}: {title_of(method)}", fontsize=9.5)
     grid[0].set_ylabel("steps")
+    labelled = {
+        label: bar for axes in grid for bar, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    figure.legend(labelled.values(), labelled.keys(), loc="outside lower center", ncols=len(labelled))
     return figure
 
 
@@ -79,7 +83,6 @@ def draw_panel(axes: Any, rows: Rows) -> None:
     axes.grid(visible=False, axis="x")
     axes.axvline(MOST_DIRECT - 0.5, color=GREY, linewidth=0.8, linestyle=":")
     axes.set_xlabel("iterations")
-    axes.legend(loc="upper right")
 
 
 def tables(rows: Rows) -> list[Table]:
